@@ -1,0 +1,36 @@
+/* What hc_bake_cone_map hands to the method it was asked for. Checked, defaults resolved. */
+#ifndef HC_BAKE_CONE_JOB_H
+#define HC_BAKE_CONE_JOB_H
+
+#include <heightcast/bake.h>
+
+typedef struct hc_cone_job {
+    float       *ratios; /* [out] width * height * channels; no ratio limit applied yet */
+    const float *heights;
+    int          width, height;
+    bool         wrap_u, wrap_v;
+    float        step_u, step_v;
+    hc_cones     cones;
+    int          channels;
+    int          threads;    /* 1 .. HC_THREADS_MAX */
+    hc_isa       isa;        /* resolved            */
+    int          gems_steps; /* > 0                 */
+    hc_progress  progress;
+    hc_log      *log;
+} hc_cone_job;
+
+/* Elongations tried for HC_CONES_ANISO, in this order; the middle one is the plain diamond. */
+#define HC_ANISO_COUNT 5
+extern const float hc_aniso_elongation[HC_ANISO_COUNT];
+
+/* ratio_u, ratio_v and the plain diamond's ratio from the largest steepness of each elongation. */
+void hc_aniso_choose(float *ratios, const float steepness[HC_ANISO_COUNT]);
+
+hc_result hc_cone_exact(const hc_cone_job *job);
+hc_result hc_cone_brute(const hc_cone_job *job);
+hc_result hc_cone_ring(const hc_cone_job *job);                              /* l2, l1       */
+hc_result hc_cone_quick(const hc_cone_job *job, bool improved, bool centre); /* all cones    */
+hc_result hc_cone_gems(const hc_cone_job *job);                              /* l2           */
+hc_result hc_cone_falling_edge(const hc_cone_job *job);                      /* l2           */
+
+#endif
