@@ -1,12 +1,14 @@
 /* Height fields: the input of everything else.
  *
  * Conventions (they hold in all of heightcast)
- * - Samples are float32, row-major, row 0 is the image's top row. Heights are normalised: 0 lowest, 1 highest.
- * - Texture space is (u, v, height). Sample (i, j) sits at u = (i + 0.5) / width, v = (j + 0.5) / height with texel
- *   registration, at u = i / (width - 1), v = j / (height - 1) with grid registration (elevation posts). Along a
- *   wrapped axis the samples are 1 / width (1 / height) apart in both registrations, so that the period is 1.
- * - The surface is the bilinear interpolation of the samples. Beyond the outermost samples it goes on with the edge
- *   value, or repeats along a wrapped axis. The field is solid below it. */
+ * - Samples are float32, row-major, row 0 is the image's top row. Heights are normalised: 0 lowest,
+ *   1 highest.
+ * - Texture space is (u, v, height). Sample (i, j) sits at u = (i + 0.5) / width,
+ *   v = (j + 0.5) / height with texel registration, at u = i / (width - 1), v = j / (height - 1)
+ *   with grid registration (elevation posts). Along a wrapped axis the samples are 1 / width
+ *   (1 / height) apart in both registrations, so that the period is 1.
+ * - The surface is the bilinear interpolation of the samples. Beyond the outermost samples it goes
+ *   on with the edge value, or repeats along a wrapped axis. The field is solid below it. */
 #ifndef HEIGHTCAST_FIELD_H
 #define HEIGHTCAST_FIELD_H
 
@@ -31,17 +33,18 @@ HC_API const char *hc_registration_name(hc_registration registration); /* "texel
 /* What the numbers meant before they were normalised. All zero: nothing is known.
  * original = low + height * (high - low). */
 typedef struct hc_elevation {
-    double low, high;            /* original values of heights 0 and 1; both 0: unknown                          */
-    double spacing_x, spacing_y; /* distance between samples, in the source's horizontal unit; 0: unknown        */
-    double origin_x, origin_y;   /* georeferenced place of sample (0, 0); meaningful if `placed`                 */
+    double low, high;            /* original values of heights 0 and 1; both 0: unknown      */
+    double spacing_x, spacing_y; /* between samples, source's horizontal unit; 0: unknown    */
+    double origin_x, origin_y;   /* georeferenced place of sample (0, 0), if `placed`        */
     bool   placed;
-    bool   has_nodata;           /* the source names a value that means "no sample here"                         */
+    bool   has_nodata; /* the source names a value that means "no sample here" */
     double nodata;
-    int    source_bits;          /* bits per sample in the source: 8, 16, 32, 64; 0: unknown                     */
-    char   unit[16];             /* vertical unit, such as "m"; "" if unknown                                    */
+    int    source_bits; /* bits per sample in the source: 8, 16, 32, 64; 0: unknown */
+    char   unit[16];    /* vertical unit, such as "m"; "" if unknown                */
 } hc_elevation;
 
-/* A height field. `heights` belongs to the caller and is only read. Zero for the rest is a good default. */
+/* A height field. `heights` belongs to the caller and is only read. Zero for the rest is a good
+ * default. */
 typedef struct hc_field {
     const float    *heights; /* width * height samples, each finite and in 0..1 */
     int             width;   /* 1 .. HC_SIDE_MAX                                */
@@ -51,23 +54,34 @@ typedef struct hc_field {
     hc_elevation    elevation;
 } hc_field;
 
-/* Distance between neighbouring samples in texture space: 1 / width, or 1 / (width - 1) for grid registration along
- * an unwrapped axis with more than one sample. Always > 0. */
+/* Distance between neighbouring samples in texture space: 1 / width, or 1 / (width - 1) for grid
+ * registration along an unwrapped axis with more than one sample. Always > 0. */
 HC_API double hc_field_step_u(const hc_field *field);
 HC_API double hc_field_step_v(const hc_field *field);
 
-/* Check sizes, enums and every height. HC_ERROR_ARGUMENT or HC_ERROR_FIELD with the first culprit in `log`. */
+/* Check sizes, enums and every height. HC_ERROR_ARGUMENT or HC_ERROR_FIELD with the first culprit
+ * in `log`. */
 HC_API hc_result hc_field_check(const hc_field *field, hc_log *log);
 
-/* Height of the bilinear surface at (u, v), in double precision; any finite u, v. For tools and tests, not hot. */
+/* Height of the bilinear surface at (u, v), in double precision; any finite u, v. For tools and
+ * tests, not hot. */
 HC_API double hc_field_surface(const hc_field *field, double u, double v);
 
-/* ---- raw samples -> heights ------------------------------------------------------------------------------------ */
+/* ---- raw samples -> heights ------------------------------------------------------------------ */
 
-typedef enum hc_sample_type { HC_U8 = 0, HC_U16, HC_I16, HC_U32, HC_I32, HC_F32, HC_F64 } hc_sample_type;
+typedef enum hc_sample_type {
+    HC_U8 = 0,
+    HC_U16,
+    HC_I16,
+    HC_U32,
+    HC_I32,
+    HC_F32,
+    HC_F64
+} hc_sample_type;
 HC_API size_t hc_sample_size(hc_sample_type type); /* bytes; 0 for an unknown type */
 
-/* Raw samples as an image file or an engine holds them: interleaved channels, rows without padding, native endian. */
+/* Raw samples as an image file or an engine holds them: interleaved channels, rows without padding,
+ * native endian. */
 typedef struct hc_samples {
     const void    *data;
     hc_sample_type type;
@@ -75,32 +89,36 @@ typedef struct hc_samples {
     int            channels; /* 1 .. 4 */
 } hc_samples;
 
+/* auto   the only colour channel, or luma where there are three or more and they differ
+ * luma   0.2126 R + 0.7152 G + 0.0722 B of the stored values (no transfer curve) */
 typedef enum hc_channel {
-    HC_CHANNEL_AUTO = 0, /* the only colour channel, or luma where there are three or more and they differ */
-    HC_CHANNEL_R, HC_CHANNEL_G, HC_CHANNEL_B, HC_CHANNEL_A,
-    HC_CHANNEL_LUMA      /* 0.2126 R + 0.7152 G + 0.0722 B of the stored values (no transfer curve)        */
+    HC_CHANNEL_AUTO = 0,
+    HC_CHANNEL_R,
+    HC_CHANNEL_G,
+    HC_CHANNEL_B,
+    HC_CHANNEL_A,
+    HC_CHANNEL_LUMA
 } hc_channel;
 
-typedef enum hc_range {
-    HC_RANGE_AUTO = 0, /* float types and placed (georeferenced) sources: data; other integers: type            */
-    HC_RANGE_DATA,     /* lowest sample -> 0, highest -> 1; a constant field becomes 0                          */
-    HC_RANGE_TYPE,     /* 0 -> 0, largest code of the type (`type_max` if given) -> 1; float types: 0 and 1     */
-    HC_RANGE_GIVEN     /* `low` -> 0, `high` -> 1, clamped outside                                              */
-} hc_range;
+/* auto   float types and placed (georeferenced) sources: data; other integers: type
+ * data   lowest sample -> 0, highest -> 1; a constant field becomes 0
+ * type   0 -> 0, largest code of the type (`type_max` if given) -> 1; float types: 0 and 1
+ * given  `low` -> 0, `high` -> 1, clamped outside */
+typedef enum hc_range { HC_RANGE_AUTO = 0, HC_RANGE_DATA, HC_RANGE_TYPE, HC_RANGE_GIVEN } hc_range;
 
-typedef enum hc_holes {
-    HC_HOLES_ERROR = 0, /* refuse: HC_ERROR_FIELD with the count and the first place               */
-    HC_HOLES_FILL,      /* nearest valid sample in Chebyshev distance, averaged over ties          */
-    HC_HOLES_LOWEST     /* the lowest valid sample                                                 */
-} hc_holes;
+/* error  refuse: HC_ERROR_FIELD with the count and the first place
+ * fill   nearest valid sample in Chebyshev distance, averaged over ties
+ * lowest the lowest valid sample */
+typedef enum hc_holes { HC_HOLES_ERROR = 0, HC_HOLES_FILL, HC_HOLES_LOWEST } hc_holes;
 
 typedef struct hc_normalise_options {
     hc_channel channel;
     hc_range   range;
-    double     low, high; /* HC_RANGE_GIVEN: low != high, both finite                                          */
-    double     type_max;  /* HC_RANGE_TYPE of integers: code that means 1, such as a PGM's maxval; 0: type's   */
-    hc_holes   holes;     /* what to do about NaN, infinities and `elevation->nodata`                          */
-    bool       invert;    /* height = 1 - height: for depth maps                                               */
+    double     low, high; /* HC_RANGE_GIVEN: low != high, both finite                    */
+    double     type_max;  /* HC_RANGE_TYPE of integers: code that means 1, such as a
+                             PGM's maxval; 0: the type's                                 */
+    hc_holes   holes;     /* what to do about NaN, infinities and `elevation->nodata`    */
+    bool       invert;    /* height = 1 - height: for depth maps                         */
 } hc_normalise_options;
 
 /* Turn raw samples into normalised heights; arithmetic in double, rounded to float once.
@@ -108,25 +126,31 @@ typedef struct hc_normalise_options {
  * heights    [out] width * height
  * samples    width, height 1 .. HC_SIDE_MAX
  * options    NULL or zero: defaults
- * elevation  [in, out] may be NULL. Read: nodata, placed. Written: low, high, source_bits. With `invert`, low and
- *            high are swapped, so that original = low + height * (high - low) still holds.
+ * elevation  [in, out] may be NULL. Read: nodata, placed. Written: low, high, source_bits. With
+ *            `invert`, low and high are swapped, so that original = low + height * (high - low)
+ *            still holds.
  *
- * HC_ERROR_FIELD: holes and HC_HOLES_ERROR, or no valid sample at all. HC_ERROR_ARGUMENT: a channel that is not
- * there, low == high. HC_ERROR_MEMORY. Warns if the heights use less than 1/16 of the type's range. Reentrant. */
-HC_API hc_result hc_normalise(float *heights, const hc_samples *samples, const hc_normalise_options *options,
-                              hc_elevation *elevation, hc_log *log);
+ * HC_ERROR_FIELD: holes and HC_HOLES_ERROR, or no valid sample at all. HC_ERROR_ARGUMENT: a channel
+ * that is not there, low == high. HC_ERROR_MEMORY. Warns if the heights use less than 1/16 of the
+ * type's range. Reentrant. */
+HC_API hc_result hc_normalise(float *heights, const hc_samples *samples,
+                              const hc_normalise_options *options, hc_elevation *elevation,
+                              hc_log *log);
 
-/* ---- made fields ----------------------------------------------------------------------------------------------- */
+/* ---- made fields ----------------------------------------------------------------------------- */
 
-/* Number, name and one-line description of the made fields, index 0 .. hc_synth_count() - 1; NULL beyond. Static. */
+/* Number, name and one-line description of the made fields, index 0 .. hc_synth_count() - 1; NULL
+ * beyond. Static. */
 HC_API int         hc_synth_count(void);
 HC_API const char *hc_synth_name(int index);
 HC_API const char *hc_synth_description(int index);
 
-/* Fill `heights` (width * height) with the named field: heights in 0..1, same bytes on every machine.
- * Fields marked "tiles" in their description repeat without a seam. `seed` selects the variant; fields without
- * randomness ignore it. HC_ERROR_ARGUMENT: unknown name (the text lists the known ones) or sizes. Reentrant. */
-HC_API hc_result hc_synth(float *heights, int width, int height, const char *name, uint64_t seed, hc_log *log);
+/* Fill `heights` (width * height) with the named field: heights in 0..1, same bytes on every
+ * machine. Fields marked "tiles" in their description repeat without a seam. `seed` selects the
+ * variant; fields without randomness ignore it. HC_ERROR_ARGUMENT: unknown name (the text lists the
+ * known ones) or sizes. Reentrant. */
+HC_API hc_result hc_synth(float *heights, int width, int height, const char *name, uint64_t seed,
+                          hc_log *log);
 
 #ifdef __cplusplus
 }

@@ -1,7 +1,8 @@
 /* heightcast: height maps to cone step maps and max-mip pyramids.
  *
- * Conventions: field.h. Results and messages: result.h. Baked data: maps.h. Baking: bake.h. Files: io.h, a library of its
- * own (heightcast-io), so that a program that ships baked maps links no image libraries. */
+ * Conventions: field.h. Results and messages: result.h. Baked data: maps.h. Baking: bake.h. Files:
+ * io.h, a library of its own (heightcast-io), so that a program that ships baked maps links no
+ * image libraries. */
 #ifndef HEIGHTCAST_HEIGHTCAST_H
 #define HEIGHTCAST_HEIGHTCAST_H
 

@@ -1,6 +1,6 @@
-/* Files <-> fields and maps (library heightcast-io). Safe on untrusted bytes: sizes are checked against limits before
- * memory is taken; a damaged file gives HC_ERROR_FORMAT, never undefined behaviour. docs/formats.md describes each
- * container and its metadata. */
+/* Files <-> fields and maps (library heightcast-io). Safe on untrusted bytes: sizes are checked
+ * against limits before memory is taken; a damaged file gives HC_ERROR_FORMAT, never undefined
+ * behaviour. docs/formats.md describes each container and its metadata. */
 #ifndef HEIGHTCAST_IO_H
 #define HEIGHTCAST_IO_H
 
@@ -13,7 +13,7 @@ extern "C" {
 /* Limits on what is read. Zero: the default in brackets. */
 typedef struct hc_limits {
     uint64_t max_samples; /* samples of one file, channels counted [2^30] */
-    uint64_t max_bytes;   /* size of one file                  [2^33] */
+    uint64_t max_bytes;   /* size of one file                      [2^33] */
 } hc_limits;
 
 typedef struct hc_load_options {
@@ -27,60 +27,73 @@ typedef struct hc_load_options {
     bool           raw_big_endian;
 } hc_load_options;
 
-/* Load a height field. The format is found by content, not by name; "-" reads standard input (not GDAL formats).
- * PNG 8/16 bit, TIFF 8/16/32 bit integer and 32/64 bit float with GeoTIFF scale, tie point and nodata, EXR half/float, PGM/PPM 8/16,
- * PFM, NPY (u1, u2, f4, f8; (height, width) or (height, width, channels)), RAW; what GDAL reads if it was built in.
+/* Load a height field. The format is found by content, not by name; "-" reads standard input (not
+ * GDAL formats).
+ * PNG 8/16 bit, TIFF 8/16/32 bit integer and 32/64 bit float with GeoTIFF scale, tie point and
+ * nodata, EXR half/float, PGM/PPM 8/16, PFM, NPY (u1, u2, f4, f8; (height, width) or (height,
+ * width, channels)), RAW; what GDAL reads if it was built in.
  *
  * field  [out] field->heights is allocated; free with hc_free_field. Left zeroed on error.
- * Warns, naming the file: sRGB-tagged input; heights that use little of their range. Errors as in result.h. */
-HC_API hc_result hc_load_field(hc_field *field, const char *path, const hc_load_options *options, hc_log *log);
+ *
+ * Warns, naming the file: sRGB-tagged input; heights that use little of their range. Errors as in
+ * result.h. */
+HC_API hc_result hc_load_field(hc_field *field, const char *path, const hc_load_options *options,
+                               hc_log *log);
 HC_API void      hc_free_field(hc_field *field);
 
 /* True if this build reads other formats through GDAL. */
 HC_API bool hc_io_has_gdal(void);
 
-/* Write heights as a field file, the original range and metadata with them: format by the name's ending
- * (.png .tif .tiff .exr .pgm .pfm .npy .raw), bits 8, 16 or 32 (float). 0: the most the format has. PNG, PGM: 8, 16;
- * EXR, PFM: 32; TIFF: 8, 16, 32; NPY, RAW: 8, 16, 32. "-" as path is refused.
- * Written to a temporary name beside `path` and renamed: complete or not there. */
 typedef struct hc_save_options {
-    bool overwrite; /* otherwise an existing file gives HC_ERROR_EXISTS */
-    int  bits;      /* fields only; maps have theirs                    */
-    int  level;     /* pyramids in containers without levels: which level to write, counted from 1; 0: refuse */
+    bool overwrite; /* otherwise an existing file gives HC_ERROR_EXISTS            */
+    int  bits;      /* fields only; maps have theirs                               */
+    int  level;     /* pyramids in containers without levels: which level to write,
+                       counted from 1; 0: refuse                                   */
 } hc_save_options;
-HC_API hc_result hc_save_field(const hc_field *field, const char *path, const hc_save_options *options, hc_log *log);
 
-/* Write a map, its info in the container's own metadata: PNG (8, 16 bit), TIFF (8, 16, 32; one directory per level),
- * EXR (32), NPY (8, 16, 32; the info is a comment behind the header's dictionary), KTX2 and DDS (8, 16, 32; levels).
+/* Write heights as a field file, the original range and metadata with them: format by the name's
+ * ending (.png .tif .tiff .exr .pgm .pfm .npy .raw), bits 8, 16 or 32 (float). 0: the most the
+ * format has. PNG, PGM: 8, 16; EXR, PFM: 32; TIFF: 8, 16, 32; NPY, RAW: 8, 16, 32. "-" as path is
+ * refused.
+ * Written to a temporary name beside `path` and renamed: complete or not there. */
+HC_API hc_result hc_save_field(const hc_field *field, const char *path,
+                               const hc_save_options *options, hc_log *log);
+
+/* Write a map, its info in the container's own metadata: PNG (8, 16 bit), TIFF (8, 16, 32; one
+ * directory per level), EXR (32), NPY (8, 16, 32; the info is a comment behind the header's
+ * dictionary), KTX2 and DDS (8, 16, 32; levels).
  * HC_ERROR_UNSUPPORTED names the containers that can hold the map. */
-HC_API hc_result hc_save_map(const hc_map *map, const char *path, const hc_save_options *options, hc_log *log);
+HC_API hc_result hc_save_map(const hc_map *map, const char *path, const hc_save_options *options,
+                             hc_log *log);
 
-/* Read a map back. map->texels is allocated; free with hc_free_map. Left zeroed on error. HC_ERROR_FORMAT for files
- * without heightcast's metadata. */
+/* Read a map back. map->texels is allocated; free with hc_free_map. Left zeroed on error.
+ * HC_ERROR_FORMAT for files without heightcast's metadata. */
 HC_API hc_result hc_load_map(hc_map *map, const char *path, const hc_limits *limits, hc_log *log);
 HC_API void      hc_free_map(hc_map *map);
 
-/* ---- pictures -------------------------------------------------------------------------------------------------- */
+/* ---- pictures -------------------------------------------------------------------------------- */
 
 /* Write 8-bit RGB pixels (width * height * 3) as PNG; same rules as hc_save_field. */
 HC_API hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char *path,
                                  const hc_save_options *options, hc_log *log);
 
-/* ---- what a file is -------------------------------------------------------------------------------------------- */
+/* ---- what a file is -------------------------------------------------------------------------- */
 
 typedef struct hc_file_info {
-    char           format[16]; /* "PNG", "TIFF", "EXR", "PNM", "PFM", "NPY", "KTX2", "DDS", "GDAL: name"        */
+    char           format[16]; /* "PNG", "TIFF", "EXR", "PNM", "PFM", "NPY", "KTX2", "DDS",
+                                  "GDAL: name"                                               */
     int            width, height, channels;
-    hc_sample_type type;       /* of the samples as decoded; half floats are reported as HC_F32 with bits 16    */
-    int            bits;       /* per sample in the file                                                        */
-    bool           srgb;       /* tagged as sRGB                                                                */
-    bool           has_map;    /* heightcast's own metadata is there: `map` is filled                           */
+    hc_sample_type type;    /* of the samples as decoded; half floats: HC_F32 with bits 16 */
+    int            bits;    /* per sample in the file                                      */
+    bool           srgb;    /* tagged as sRGB                                              */
+    bool           has_map; /* heightcast's own metadata is there: `map` is filled         */
     hc_map_info    map;
-    hc_elevation   elevation;  /* what the file says: spacing, origin, nodata                                   */
+    hc_elevation   elevation; /* what the file says: spacing, origin, nodata                 */
 } hc_file_info;
 
 /* Read what the header says, decoding no more than the container needs. */
-HC_API hc_result hc_read_file_info(hc_file_info *info, const char *path, const hc_limits *limits, hc_log *log);
+HC_API hc_result hc_read_file_info(hc_file_info *info, const char *path, const hc_limits *limits,
+                                   hc_log *log);
 
 #ifdef __cplusplus
 }

@@ -1,5 +1,5 @@
-/* The canonical formula of hc_bake_cone_map, in one place: every method that promises "the same bits"
- * goes through these functions. Each operation rounds to nearest; nothing is fused. */
+/* The canonical formula of hc_bake_cone_map, in one place: every method that promises "the same
+ * bits" goes through these functions. Each operation rounds to nearest; nothing is fused. */
 #ifndef HC_BAKE_CANONICAL_H
 #define HC_BAKE_CANONICAL_H
 

@@ -1,4 +1,5 @@
-/* How code below the public API reports: one line that names the culprit, its value and the remedy. */
+/* How code below the public API reports: one line that names the culprit, its value and the
+ * remedy. */
 #ifndef HC_BASE_FAIL_H
 #define HC_BASE_FAIL_H
 
