@@ -1,0 +1,28 @@
+/* The two ways to write into a log. */
+#include "fail.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+hc_result hc_fail(hc_log *log, hc_result result, const char *format, ...)
+{
+    if (log != NULL) {
+        va_list arguments;
+        va_start(arguments, format);
+        (void)vsnprintf(log->text, sizeof log->text, format, arguments);
+        va_end(arguments);
+    }
+    return result;
+}
+
+void hc_warn(const hc_log *log, const char *format, ...)
+{
+    if (log != NULL && log->warn != NULL) {
+        char    line[HC_LOG_TEXT_SIZE];
+        va_list arguments;
+        va_start(arguments, format);
+        (void)vsnprintf(line, sizeof line, format, arguments);
+        va_end(arguments);
+        log->warn(log->user, line);
+    }
+}
