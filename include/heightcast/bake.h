@@ -64,13 +64,12 @@ typedef struct hc_cone_options {
  *   i, j = |column distance|, |row distance| of p and q; along a wrapped axis that of q's
  *          nearest image
  *   rise = h(q) - h(p)
- *   l2:    x = i * su, y = j * sv;  steepness = rise * rise / (x * x + y * y)
- *   l1:    x = i * su, y = j * sv;  steepness = rise / (x + y)
+ *   l2:    x = i * su, y = j * sv;  weight = 1 / sqrt(x * x + y * y)
+ *   l1:    x = i * su, y = j * sv;  weight = 1 / (x + y)
  *   aniso: as l1 with x = i * (su * a), y = j * (sv / a) for a in {1/4, 1/2, 1, 2, 4}
- *   best = maximum over all q with rise > 0 (quad: q in that quadrant, axes included, nearest
- *          image in it)
- *   l2:    ratio = sqrt(1 / best) * (1 - 2^-20)
- *   l1:    ratio = 1 / best * (1 - 2^-20)
+ *   best = maximum of rise * weight over all q with rise > 0
+ *          (quad: q in that quadrant, axes included, nearest image in it)
+ *   ratio = 1 / best * (1 - 2^-20)
  *   aniso: slope_u = best * a, slope_v = best / a of the `a` whose slope_u + slope_v is least
  *          (the first such); ratio_u = 1 / slope_u * (1 - 2^-20), ratio_v likewise; the third
  *          channel is l1

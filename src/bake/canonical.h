@@ -5,7 +5,7 @@
 
 #include <math.h>
 
-/* Outweighs the rounding of the formula (below 11 units of 2^-24 before the root), so that a
+/* Outweighs the rounding of the formula (below 10 units of 2^-24), so that a
  * stored ratio is never wider than the real number: docs/algorithms.md, "Rounding". */
 #define HC_RATIO_SAFETY (1.0F - 0x1p-20F)
 
@@ -13,43 +13,27 @@
  * HC_SIDE_MAX wrapped periods rises by less than 2^-40. */
 #define HC_RATIO_UNLIMITED 0x1p60F
 
-/* Addend of one axis to the distance measure: i samples apart, `step` texture units each. */
-static inline float hc_reach_l2(int i, float step)
+/* Weight of a rise towards a sample i columns and j rows away (not both 0): one over the distance
+ * in texture units. Falls monotonically, rounding included, in i and in j: pruning relies on it. */
+static inline float hc_weight_l2(int i, int j, float step_u, float step_v)
 {
-    const float x = (float)i * step;
-    return x * x;
+    const float x = (float)i * step_u;
+    const float y = (float)j * step_v;
+    return 1.0F / sqrtf(x * x + y * y);
 }
 
-static inline float hc_reach_l1(int i, float step)
+static inline float hc_weight_l1(int i, int j, float step_u, float step_v)
 {
-    return (float)i * step;
+    const float x = (float)i * step_u;
+    const float y = (float)j * step_v;
+    return 1.0F / (x + y);
 }
 
-/* Steepness towards a sample `rise` > 0 higher: squared slope for l2, slope for l1. */
-static inline float hc_steepness_l2(float rise, float reach_u, float reach_v)
+/* From the largest steepness (rise * weight) to the stored ratio; 0 means that nothing is higher. */
+static inline float hc_ratio(float steepness)
 {
-    return rise * rise / (reach_u + reach_v);
-}
-
-static inline float hc_steepness_l1(float rise, float reach_u, float reach_v)
-{
-    return rise / (reach_u + reach_v);
-}
-
-static inline float hc_limited_ratio(float ratio)
-{
+    const float ratio = 1.0F / steepness;
     return ratio > HC_RATIO_UNLIMITED ? INFINITY : ratio * HC_RATIO_SAFETY;
-}
-
-/* From the largest steepness to the stored ratio; 0 means that nothing is higher. */
-static inline float hc_ratio_l2(float steepness)
-{
-    return hc_limited_ratio(sqrtf(1.0F / steepness));
-}
-
-static inline float hc_ratio_l1(float steepness)
-{
-    return hc_limited_ratio(1.0F / steepness);
 }
 
 #endif
