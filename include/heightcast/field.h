@@ -90,7 +90,9 @@ typedef struct hc_samples {
 } hc_samples;
 
 /* auto   the only colour channel, or luma where there are three or more and they differ
- * luma   0.2126 R + 0.7152 G + 0.0722 B of the stored values (no transfer curve) */
+ * g, a   of two channels both mean the second
+ * luma   0.2126 R + 0.7152 G + 0.0722 B of the stored values (no transfer curve); the first channel
+ *        where there are fewer than three */
 typedef enum hc_channel {
     HC_CHANNEL_AUTO = 0,
     HC_CHANNEL_R,
@@ -108,7 +110,7 @@ typedef enum hc_range { HC_RANGE_AUTO = 0, HC_RANGE_DATA, HC_RANGE_TYPE, HC_RANG
 
 /* error  refuse: HC_ERROR_FIELD with the count and the first place
  * fill   nearest valid sample in Chebyshev distance, averaged over ties
- * lowest the lowest valid sample */
+ * lowest the lowest valid height (after range and inversion) */
 typedef enum hc_holes { HC_HOLES_ERROR = 0, HC_HOLES_FILL, HC_HOLES_LOWEST } hc_holes;
 
 typedef struct hc_normalise_options {
@@ -131,8 +133,9 @@ typedef struct hc_normalise_options {
  *            still holds.
  *
  * HC_ERROR_FIELD: holes and HC_HOLES_ERROR, or no valid sample at all. HC_ERROR_ARGUMENT: a channel
- * that is not there, low == high. HC_ERROR_MEMORY. Warns if the heights use less than 1/16 of the
- * type's range. Reentrant. */
+ * that is not there, low == high. HC_ERROR_MEMORY: `fill` alone takes memory, 12 bytes per sample
+ * around the holes. With the type's range it warns if the heights use less than 1/16 of that range,
+ * or reach beyond it and were clamped. Reentrant. */
 HC_API hc_result hc_normalise(float *heights, const hc_samples *samples,
                               const hc_normalise_options *options, hc_elevation *elevation,
                               hc_log *log);

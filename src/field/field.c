@@ -1,7 +1,5 @@
 /* What a field is: names, distances, validity, and the surface between its samples. */
-#include "base/fail.h"
-
-#include <heightcast/field.h>
+#include "shape.h"
 
 #include <math.h>
 
@@ -111,11 +109,6 @@ static hc_result check_shape(const hc_field *field, hc_log *log)
         return hc_fail(log, HC_ERROR_ARGUMENT, "%s is NULL",
                        field == NULL ? "field" : "field.heights");
     }
-    if (field->width < 1 || field->width > HC_SIDE_MAX || field->height < 1
-        || field->height > HC_SIDE_MAX) {
-        return hc_fail(log, HC_ERROR_ARGUMENT, "field size is %d x %d; sides are 1 .. %d",
-                       field->width, field->height, HC_SIDE_MAX);
-    }
     if ((unsigned)field->wrap > HC_WRAP_UV) {
         return hc_fail(log, HC_ERROR_ARGUMENT, "field.wrap is %d; known are 0 .. %d",
                        (int)field->wrap, (int)HC_WRAP_UV);
@@ -124,7 +117,7 @@ static hc_result check_shape(const hc_field *field, hc_log *log)
         return hc_fail(log, HC_ERROR_ARGUMENT, "field.registration is %d; known are 0 .. %d",
                        (int)field->registration, (int)HC_GRID);
     }
-    return HC_OK;
+    return hc_check_shape("field", field->width, field->height, sizeof *field->heights, log);
 }
 
 static bool in_range(float height)

@@ -1,4 +1,5 @@
-/* What the integer codes of a map mean, in one place: whoever writes codes compares with what is read back here. */
+/* What the integer codes of a map mean, in one place: whoever writes codes compares with what is
+ * read back here. */
 #ifndef HC_MAPS_CODES_H
 #define HC_MAPS_CODES_H
 

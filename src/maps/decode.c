@@ -54,7 +54,8 @@ float hc_map_ratio_at(const hc_map *map, int x, int y, int cone)
     if (info->bits == 32) {
         return ((const float *)map->texels)[element];
     }
-    /* The paper's shaders square the channel and multiply by nothing, whatever the ratios were cut off at. */
+    /* The paper's shaders square the channel and multiply by nothing, whatever the ratios were
+     * cut off at. */
     const float scale = info->layout == HC_LAYOUT_DUMMER ? 1.0F : info->max_ratio;
     return hc_code_ratio(code_at(map, element), info->bits, scale);
 }
