@@ -42,6 +42,8 @@ foreach(name heightcast heightcast-io)
 endforeach()
 
 if(TARGET heightcast)
+  # An installed program finds shared libraries beside itself, wherever the prefix was moved to.
+  set_target_properties(heightcast PROPERTIES INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
   install(TARGETS heightcast)
   install(FILES docs/heightcast.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 endif()
