@@ -1,0 +1,46 @@
+# A thin door to CMake: the presets of CMakePresets.json do the work.
+PREFIX ?= /usr/local
+FUZZ_SECONDS ?= 60
+export FUZZ_SECONDS
+
+.PHONY: all demo test fuzz bench gallery lint install clean
+
+# build/heightcast and the libraries
+all:
+	@scripts/install_deps.sh --check build
+	@mkdir -p build
+	@cmake --preset release >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@cmake --build --preset release
+
+# maps and pictures of real and made heights, into out/demo
+demo:
+	@scripts/install_deps.sh demo
+	@$(MAKE) --no-print-directory all
+	@scripts/demo.sh
+
+# every test in every build
+test:
+	@scripts/install_deps.sh test
+	@scripts/test.sh
+
+# each file reader for FUZZ_SECONDS
+fuzz:
+	@scripts/install_deps.sh fuzz
+	@scripts/fuzz.sh
+
+bench: all
+	build/heightcast bench bake
+
+# the pictures of docs/gallery
+gallery: all
+	@scripts/make_gallery.sh
+
+lint:
+	@scripts/install_deps.sh lint
+	@scripts/lint.sh
+
+install: all
+	cmake --install build --prefix $(PREFIX)
+
+clean:
+	rm -rf build out
