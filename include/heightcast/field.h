@@ -149,10 +149,10 @@ HC_API const char *hc_synth_name(int index);
 HC_API const char *hc_synth_description(int index);
 
 /* Fill `heights` (width * height) with the named field: heights in 0..1, same bytes on every
- * machine and for every number of threads (large fields take one per core). Fields marked "tiles" in
- * their description repeat without a seam; those marked "no seed" are always the same, for the others
- * `seed` selects the variant. HC_ERROR_ARGUMENT: unknown name (the text lists the known ones) or
- * sizes. Takes no memory of its own to speak of. Reentrant. */
+ * machine and for every number of threads (large fields take one per core). Fields marked "tiles"
+ * in their description repeat without a seam; those marked "no seed" are always the same, for the
+ * others `seed` selects the variant. HC_ERROR_ARGUMENT: unknown name (the text lists the known
+ * ones) or sizes. Takes no memory of its own to speak of. Reentrant. */
 HC_API hc_result hc_synth(float *heights, int width, int height, const char *name, uint64_t seed,
                           hc_log *log);
 
