@@ -32,6 +32,15 @@ static void keep_complaint(exr_const_context_t context, exr_result_t code, const
     }
 }
 
+/* A context that writes is locked while it reports, and asking it for its user data would wait for
+ * that lock for ever; the reason of a failed write is known without it. */
+static void keep_silent(exr_const_context_t context, exr_result_t code, const char *message)
+{
+    (void)context;
+    (void)code;
+    (void)message;
+}
+
 static int64_t pull(exr_const_context_t context, void *user, void *buffer, uint64_t size,
                     uint64_t offset, exr_stream_error_func_ptr_t error)
 {
@@ -51,12 +60,10 @@ static int64_t source_size(exr_const_context_t context, void *user)
 static int64_t push(exr_const_context_t context, void *user, const void *buffer, uint64_t size,
                     uint64_t offset, exr_stream_error_func_ptr_t error)
 {
+    (void)context;
+    (void)error;
     const stream *to = user;
-    if (!hc_output_write_at(to->output, offset, buffer, (size_t)size)) {
-        (void)error(context, EXR_ERR_WRITE_IO, "the write failed");
-        return -1;
-    }
-    return (int64_t)size;
+    return hc_output_write_at(to->output, offset, buffer, (size_t)size) ? (int64_t)size : -1;
 }
 
 static exr_context_initializer_t initializer(stream *user)
@@ -73,7 +80,8 @@ static exr_context_initializer_t initializer(stream *user)
         made.max_tile_width   = HC_SIDE_MAX;
         made.max_tile_height  = HC_SIDE_MAX;
     } else {
-        made.write_fn = push;
+        made.write_fn         = push;
+        made.error_handler_fn = keep_silent;
     }
     return made;
 }
@@ -445,8 +453,7 @@ hc_result hc_write_exr(hc_output *output, const hc_image *image, hc_log *log)
     if (code != EXR_ERR_SUCCESS) {
         return hc_fail(log, code == EXR_ERR_OUT_OF_MEMORY ? HC_ERROR_MEMORY : HC_ERROR_IO,
                        "%s: cannot encode the EXR: %s", output->path,
-                       to.complaint[0] != '\0' ? to.complaint
-                                               : exr_get_default_error_message(code));
+                       exr_get_default_error_message(code));
     }
     return HC_OK;
 }
