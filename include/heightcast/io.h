@@ -77,6 +77,22 @@ HC_API void      hc_free_map(hc_map *map);
 HC_API hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char *path,
                                  const hc_save_options *options, hc_log *log);
 
+/* ---- what can be written --------------------------------------------------------------------- */
+
+/* A file format that the functions above write, chosen by the ending of a file's name. */
+typedef struct hc_container {
+    const char *name;       /* "PNG"                                                */
+    const char *endings[2]; /* ".tif", ".tiff"; the second may be NULL              */
+    int         field_bits; /* depths it writes fields with: OR of 8, 16, 32; 0: none */
+    int         map_bits;   /* likewise for maps                                    */
+    bool        levels;     /* holds all levels of a pyramid                        */
+} hc_container;
+
+/* By index, NULL beyond the last. Static. */
+HC_API const hc_container *hc_container_at(int index);
+/* By the ending of `path`, of which the case does not matter; NULL if none has it. Static. */
+HC_API const hc_container *hc_container_of(const char *path);
+
 /* ---- what a file is -------------------------------------------------------------------------- */
 
 typedef struct hc_file_info {

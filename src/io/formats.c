@@ -60,37 +60,30 @@ static bool is_dds(const uint8_t *head, size_t size)
 }
 
 static const hc_format formats[] = {
-    { "PNG", { ".png" }, is_png, hc_read_png, hc_write_png, 8 | 16, 8 | 16, false },
-    { "TIFF",
-      { ".tif", ".tiff" },
+    { { "PNG", { ".png" }, 8 | 16, 8 | 16, false }, is_png, hc_read_png, hc_write_png },
+    { { "TIFF", { ".tif", ".tiff" }, 8 | 16 | 32, 8 | 16 | 32, true },
       is_tiff,
       hc_read_tiff,
-      hc_write_tiff,
-      8 | 16 | 32,
-      8 | 16 | 32,
-      true },
-    { "EXR", { ".exr" }, is_exr, hc_read_exr, hc_write_exr, 32, 32, false },
-    { "PNM", { ".pgm" }, is_pnm, hc_read_pnm, hc_write_pgm, 8 | 16, 0, false },
-    { "PFM", { ".pfm" }, is_pfm, hc_read_pfm, hc_write_pfm, 32, 0, false },
-    { "NPY", { ".npy" }, is_npy, hc_read_npy, hc_write_npy, 8 | 16 | 32, 8 | 16 | 32, false },
-    { "RAW", { ".raw" }, NULL, NULL, hc_write_raw, 8 | 16 | 32, 0, false },
-    { "KTX2", { ".ktx2" }, is_ktx2, hc_read_ktx2, hc_write_ktx2, 0, 8 | 16 | 32, true },
-    { "DDS", { ".dds" }, is_dds, hc_read_dds, hc_write_dds, 0, 8 | 16 | 32, true },
+      hc_write_tiff },
+    { { "EXR", { ".exr" }, 32, 32, false }, is_exr, hc_read_exr, hc_write_exr },
+    { { "PNM", { ".pgm" }, 8 | 16, 0, false }, is_pnm, hc_read_pnm, hc_write_pgm },
+    { { "PFM", { ".pfm" }, 32, 0, false }, is_pfm, hc_read_pfm, hc_write_pfm },
+    { { "NPY", { ".npy" }, 8 | 16 | 32, 8 | 16 | 32, false }, is_npy, hc_read_npy, hc_write_npy },
+    { { "RAW", { ".raw" }, 8 | 16 | 32, 0, false }, NULL, NULL, hc_write_raw },
+    { { "KTX2", { ".ktx2" }, 0, 8 | 16 | 32, true }, is_ktx2, hc_read_ktx2, hc_write_ktx2 },
+    { { "DDS", { ".dds" }, 0, 8 | 16 | 32, true }, is_dds, hc_read_dds, hc_write_dds },
 };
 
-int hc_format_count(void)
-{
-    return (int)(sizeof formats / sizeof *formats);
-}
+enum { FORMATS = (int)(sizeof formats / sizeof *formats) };
 
-const hc_format *hc_format_at(int index)
+const hc_container *hc_container_at(int index)
 {
-    return &formats[index];
+    return index >= 0 && index < FORMATS ? &formats[index].container : NULL;
 }
 
 const hc_format *hc_format_by_content(const uint8_t *head, size_t size)
 {
-    for (int i = 0; i < hc_format_count(); i++) {
+    for (int i = 0; i < FORMATS; i++) {
         if (formats[i].recognise != NULL && formats[i].recognise(head, size)) {
             return &formats[i];
         }
@@ -101,15 +94,22 @@ const hc_format *hc_format_by_content(const uint8_t *head, size_t size)
 const hc_format *hc_format_by_ending(const char *path)
 {
     const size_t length = strlen(path);
-    for (int i = 0; i < hc_format_count(); i++) {
-        for (int k = 0; k < 2 && formats[i].endings[k] != NULL; k++) {
-            const size_t ending = strlen(formats[i].endings[k]);
-            if (length > ending && strcasecmp(path + length - ending, formats[i].endings[k]) == 0) {
+    for (int i = 0; i < FORMATS; i++) {
+        const char *const *endings = formats[i].container.endings;
+        for (int k = 0; k < 2 && endings[k] != NULL; k++) {
+            const size_t ending = strlen(endings[k]);
+            if (length > ending && strcasecmp(path + length - ending, endings[k]) == 0) {
                 return &formats[i];
             }
         }
     }
     return NULL;
+}
+
+const hc_container *hc_container_of(const char *path)
+{
+    const hc_format *format = hc_format_by_ending(path);
+    return format != NULL ? &format->container : NULL;
 }
 
 hc_result hc_read_image(hc_image *image, char format[16], const hc_source *source, bool header_only,
@@ -138,7 +138,7 @@ hc_result hc_read_image(hc_image *image, char format[16], const hc_source *sourc
     }
     if (format != NULL) {
         (void)snprintf(format, sizeof image->driver, "%s",
-                       found != NULL ? found->name : image->driver);
+                       found != NULL ? found->container.name : image->driver);
     }
     return HC_OK;
 }

@@ -143,20 +143,14 @@ typedef hc_result hc_reader(hc_image *image, const hc_source *source, bool heade
 typedef hc_result hc_writer(hc_output *output, const hc_image *image, hc_log *log);
 
 typedef struct hc_format {
-    const char *name;
-    const char *endings[2];
+    hc_container container;
     bool (*recognise)(const uint8_t *head, size_t size); /* NULL: never by content         */
     hc_reader *read;                                     /* NULL: not without further options */
     hc_writer *write;
-    int        field_bits; /* OR of 8, 16, 32 */
-    int        map_bits;   /* likewise; 0: no maps */
-    bool       levels;     /* can hold a pyramid   */
 } hc_format;
 
 enum { HC_HEAD_SIZE = 16 }; /* bytes that are enough to tell every format */
 
-int              hc_format_count(void);
-const hc_format *hc_format_at(int index);
 const hc_format *hc_format_by_content(const uint8_t *head, size_t size);
 const hc_format *hc_format_by_ending(const char *path);
 /* Decode a source whatever its format, GDAL's included. `format` [out] may be NULL. */

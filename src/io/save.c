@@ -43,16 +43,17 @@ static void *make_codes(const hc_field *field, int bits)
     return codes;
 }
 
-static hc_result resolve_bits(int *bits, const hc_format *format, const char *path, hc_log *log)
+static hc_result resolve_bits(int *bits, const hc_container *container, const char *path,
+                              hc_log *log)
 {
+    const int allowed = container->field_bits;
     if (*bits == 0) {
-        *bits = (format->field_bits & 32) != 0 ? 32 : 16;
+        *bits = (allowed & 32) != 0 ? 32 : 16;
     }
-    if ((*bits != 8 && *bits != 16 && *bits != 32) || (format->field_bits & *bits) == 0) {
+    if ((*bits != 8 && *bits != 16 && *bits != 32) || (allowed & *bits) == 0) {
         return hc_fail(log, HC_ERROR_UNSUPPORTED, "%s: %s fields cannot have %d bits; use%s%s%s",
-                       path, format->name, *bits, (format->field_bits & 8) != 0 ? " 8" : "",
-                       (format->field_bits & 16) != 0 ? " 16" : "",
-                       (format->field_bits & 32) != 0 ? " 32" : "");
+                       path, container->name, *bits, (allowed & 8) != 0 ? " 8" : "",
+                       (allowed & 16) != 0 ? " 16" : "", (allowed & 32) != 0 ? " 32" : "");
     }
     return HC_OK;
 }
@@ -66,13 +67,13 @@ hc_result hc_save_field(const hc_field *field, const char *path, const hc_save_o
     if (checked != HC_OK) {
         return checked;
     }
-    if (format == NULL || format->field_bits == 0) {
+    if (format == NULL || format->container.field_bits == 0) {
         return hc_fail(log, HC_ERROR_UNSUPPORTED,
                        "%s: fields are not written under this ending; use .png, .tif, .exr, .pgm, "
                        ".pfm, .npy or .raw",
                        path);
     }
-    const hc_result possible = resolve_bits(&given.bits, format, path, log);
+    const hc_result possible = resolve_bits(&given.bits, &format->container, path, log);
     if (possible != HC_OK) {
         return possible;
     }
@@ -104,11 +105,11 @@ static hc_result refuse(const hc_map_info *info, bool levels, const char *path, 
 {
     char   list[128] = "";
     size_t used      = 0;
-    for (int i = 0; i < hc_format_count(); i++) {
-        const hc_format *format = hc_format_at(i);
-        if ((format->map_bits & info->bits) != 0 && (format->levels || !levels)) {
+    for (int i = 0; hc_container_at(i) != NULL; i++) {
+        const hc_container *container = hc_container_at(i);
+        if ((container->map_bits & info->bits) != 0 && (container->levels || !levels)) {
             used += (size_t)snprintf(list + used, sizeof list - used, "%s%s", used > 0 ? ", " : "",
-                                     format->endings[0]);
+                                     container->endings[0]);
         }
     }
     return hc_fail(log, HC_ERROR_UNSUPPORTED,
@@ -151,7 +152,8 @@ hc_result hc_save_map(const hc_map *map, const char *path, const hc_save_options
     }
     const hc_map one    = given.level > 0 ? pick_level(map, given.level - 1) : *map;
     const bool   levels = one.info.levels > 1;
-    if (format == NULL || (format->map_bits & one.info.bits) == 0 || (levels && !format->levels)) {
+    if (format == NULL || (format->container.map_bits & one.info.bits) == 0
+        || (levels && !format->container.levels)) {
         return refuse(&one.info, levels, path, log);
     }
     hc_image image = { .data      = one.texels,
