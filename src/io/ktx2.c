@@ -211,7 +211,7 @@ hc_result hc_write_ktx2(hc_output *output, const hc_image *image, hc_log *log)
     place_levels(offsets, image, head_size + descriptor_size + keys_size);
 
     memcpy(head, identifier, sizeof identifier);
-    hc_put_le32(head + 12, hc_texel_format_of_image(image)->vulkan);
+    hc_put_le32(head + 12, hc_texel_format_of(image->channels, image->type)->vulkan);
     hc_put_le32(head + 16, (uint32_t)size);
     hc_put_le32(head + 20, (uint32_t)image->width);
     hc_put_le32(head + 24, (uint32_t)image->height);

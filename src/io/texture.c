@@ -13,10 +13,10 @@ static const hc_texel_format formats[] = {
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
-const hc_texel_format *hc_texel_format_of_image(const hc_image *image)
+const hc_texel_format *hc_texel_format_of(int channels, hc_sample_type type)
 {
     for (int i = 0; i < FORMATS; i++) {
-        if (formats[i].channels == image->channels && formats[i].type == image->type) {
+        if (formats[i].channels == channels && formats[i].type == type) {
             return &formats[i];
         }
     }

@@ -13,7 +13,7 @@ typedef struct hc_texel_format {
 } hc_texel_format;
 
 /* NULL if there is none. Linear formats are preferred for writing. */
-const hc_texel_format *hc_texel_format_of_image(const hc_image *image);
+const hc_texel_format *hc_texel_format_of(int channels, hc_sample_type type);
 const hc_texel_format *hc_texel_format_of_vulkan(uint32_t number);
 const hc_texel_format *hc_texel_format_of_dxgi(uint32_t number);
 
