@@ -10,7 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { CHANNELS_MAX = 4 };
+enum {
+    CHANNELS_MAX = 4,
+    CHUNK_FLOOR  = 1 << 24 /* values in a chunk that every limit allows */
+};
 
 /* The user data of a context: where its bytes are and what it complained of. */
 typedef struct stream {
@@ -300,7 +303,8 @@ static hc_result read_part(exr_const_context_t context, const stream *from, hc_i
     if (result == HC_OK) {
         result = hc_check_promise(from->source, 8.0 * count, 1.0, log);
     }
-    if (result == HC_OK && unpacked > from->source->limits.max_samples * sizeof(float)) {
+    if (result == HC_OK
+        && unpacked / sizeof(float) > from->source->limits.max_samples + CHUNK_FLOOR) {
         result = hc_fail(log, HC_ERROR_LIMIT,
                          "%s: has chunks of %llu bytes, the limit is %llu samples; raise "
                          "max_samples if you trust it",

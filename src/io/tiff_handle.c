@@ -35,6 +35,9 @@ static tmsize_t read_bytes(thandle_t user, void *buffer, tmsize_t size)
                             ? hc_source_read(tiff->source, tiff->position, buffer, (size_t)size)
                             : hc_output_read_at(tiff->output, tiff->position, buffer, (size_t)size);
     tiff->position += got;
+    if (got < (size_t)size && tiff->complaint[0] == '\0') {
+        (void)snprintf(tiff->complaint, sizeof tiff->complaint, "the file is cut off");
+    }
     return (tmsize_t)got;
 }
 

@@ -19,7 +19,7 @@ typedef struct hc_tiff {
     const hc_source *source; /* one of the two is NULL */
     hc_output       *output;
     uint64_t         position;
-    char             complaint[256]; /* libtiff's first error; "" if none */
+    char             complaint[256]; /* the first error, or that the file ends early; "" if none */
 } hc_tiff;
 
 /* Open for reading (source) or writing (output); `tiff` must stay where it is until hc_tiff_close.

@@ -431,8 +431,9 @@ static hc_result read_open(hc_tiff *tiff, hc_image *image, bool header_only, hc_
 
 hc_result hc_read_tiff(hc_image *image, const hc_source *source, bool header_only, hc_log *log)
 {
-    hc_tiff         tiff;
-    const bool      opened = hc_tiff_open(&tiff, source, NULL, false);
+    hc_tiff tiff;
+    /* libtiff goes on without tags that it cannot read, but one of them may name nodata */
+    const bool      opened = hc_tiff_open(&tiff, source, NULL, false) && tiff.complaint[0] == '\0';
     const hc_result result = opened ? read_open(&tiff, image, header_only, log)
                                     : damaged(&tiff, "no image directory", log);
     hc_tiff_close(&tiff);
