@@ -74,7 +74,7 @@ static inline void write_bytes(const char *path, const void *bytes, size_t size)
     assert_int_equal(fclose(file), 0);
 }
 
-/* A whole file; to be freed. */
+/* A whole file, and a zero behind it; to be freed. */
 static inline unsigned char *read_bytes(const char *path, size_t *size)
 {
     FILE *file = fopen(path, "rb");
@@ -86,6 +86,7 @@ static inline unsigned char *read_bytes(const char *path, size_t *size)
     rewind(file);
     assert_true(fread(bytes, 1, *size, file) == *size);
     (void)fclose(file);
+    bytes[*size] = '\0';
     return bytes;
 }
 

@@ -298,8 +298,7 @@ static void test_not_maps(void **state)
         size_t size;
         assert_ok(hc_save_map(&made, path, &(hc_save_options){ .overwrite = true }, &log), &log);
         unsigned char *bytes = read_bytes(path, &size);
-        bytes[size]          = '\0';
-        char *found          = strstr((char *)bytes + 12, changes[i][0]);
+        char          *found = strstr((char *)bytes + 12, changes[i][0]);
         assert_non_null(found);
         memcpy(found, changes[i][1], strlen(changes[i][1]));
         write_bytes(path, bytes, size);
