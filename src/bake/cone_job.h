@@ -19,6 +19,13 @@ typedef struct hc_cone_job {
     hc_log      *log;
 } hc_cone_job;
 
+/* Check everything and resolve defaults. */
+hc_result hc_cone_job_init(hc_cone_job *job, float *ratios, const hc_field *field,
+                           const hc_cone_options *options, hc_log *log);
+
+/* The last step of every method; max_ratio 0: none. */
+void hc_limit_ratios(float *ratios, size_t count, float max_ratio);
+
 /* Elongations tried for HC_CONES_ANISO, in this order; the middle one is the plain diamond. */
 #define HC_ANISO_COUNT 5
 extern const float hc_aniso_elongation[HC_ANISO_COUNT];

@@ -1,0 +1,189 @@
+#include "block_tree.h"
+
+#include "base/fail.h"
+#include "base/parallel.h"
+
+#include <stdlib.h>
+
+enum { SIDE = 4, ENTRIES = SIDE * SIDE };
+
+/* Fields that use less of 0..1 than this are searched relative to their own lowest height. */
+static const float SMALL_RANGE = 1.0F / 64.0F;
+
+static size_t lay_out(hc_block_tree *tree)
+{
+    size_t floats  = 0;
+    int    columns = tree->width;
+    int    rows    = tree->height;
+    tree->count    = 0;
+    do {
+        columns                     = (columns + SIDE - 1) / SIDE;
+        rows                        = (rows + SIDE - 1) / SIDE;
+        tree->levels[tree->count++] = (hc_tree_level){ .columns = columns, .rows = rows };
+        floats += (size_t)columns * (size_t)rows * ENTRIES;
+    } while (columns > 1 || rows > 1);
+    return floats;
+}
+
+static void place_levels(hc_block_tree *tree)
+{
+    float *next = tree->store;
+    for (int k = 0; k < tree->count; k++) {
+        tree->levels[k].entries = next;
+        next += (size_t)tree->levels[k].columns * (size_t)tree->levels[k].rows * ENTRIES;
+    }
+}
+
+static void find_range(hc_block_tree *tree, const float *heights)
+{
+    const size_t count = (size_t)tree->width * (size_t)tree->height;
+    float        low   = heights[0];
+    float        high  = heights[0];
+    float lows[ENTRIES], highs[ENTRIES]; /* sixteen chains, so that the loop becomes vectors */
+    for (int i = 0; i < ENTRIES; i++) {
+        lows[i]  = low;
+        highs[i] = high;
+    }
+    for (size_t first = 0; first + ENTRIES <= count; first += ENTRIES) {
+        for (int i = 0; i < ENTRIES; i++) {
+            lows[i] = heights[first + (size_t)i] < lows[i] ? heights[first + (size_t)i] : lows[i];
+            highs[i] =
+                heights[first + (size_t)i] > highs[i] ? heights[first + (size_t)i] : highs[i];
+        }
+    }
+    for (size_t i = count - count % ENTRIES; i < count; i++) {
+        low  = heights[i] < low ? heights[i] : low;
+        high = heights[i] > high ? heights[i] : high;
+    }
+    for (int i = 0; i < ENTRIES; i++) {
+        low  = lows[i] < low ? lows[i] : low;
+        high = highs[i] > high ? highs[i] : high;
+    }
+    const bool small = high - low < SMALL_RANGE;
+    tree->base       = small ? low : 0.0F;
+    tree->range      = small ? high - low : 1.0F;
+}
+
+static void copy_block(const hc_block_tree *tree, const float *heights, int block_x, int block_y)
+{
+    float *entries = hc_tree_node(&tree->levels[0], block_x, block_y);
+    for (int i = 0; i < ENTRIES; i++) {
+        const int x = block_x * SIDE + i % SIDE;
+        const int y = block_y * SIDE + i / SIDE;
+        entries[i]  = x < tree->width && y < tree->height
+                          ? heights[(size_t)y * (size_t)tree->width + (size_t)x]
+                          : HC_TREE_OUTSIDE;
+    }
+}
+
+static float highest(const float *entries)
+{
+    float half[ENTRIES / 2]; /* halving instead of a chain of fifteen */
+    for (int i = 0; i < ENTRIES / 2; i++) {
+        half[i] = entries[i] > entries[i + ENTRIES / 2] ? entries[i] : entries[i + ENTRIES / 2];
+    }
+    for (int left = ENTRIES / 4; left > 0; left /= 2) {
+        for (int i = 0; i < left; i++) {
+            half[i] = half[i] > half[i + left] ? half[i] : half[i + left];
+        }
+    }
+    return half[0];
+}
+
+/* Entries of one node of level `k` >= 1 from the nodes below it. */
+static void gather_node(const hc_block_tree *tree, int k, int x, int y)
+{
+    const hc_tree_level *fine    = &tree->levels[k - 1];
+    const float          lift    = k == 1 ? tree->base : 0.0F; /* level 0 holds plain heights */
+    float               *entries = hc_tree_node(&tree->levels[k], x, y);
+    for (int i = 0; i < ENTRIES; i++) {
+        const int child_x = x * SIDE + i % SIDE;
+        const int child_y = y * SIDE + i / SIDE;
+        entries[i]        = child_x < fine->columns && child_y < fine->rows
+                                ? highest(hc_tree_node(fine, child_x, child_y)) - lift
+                                : HC_TREE_OUTSIDE;
+    }
+}
+
+typedef struct build {
+    hc_block_tree *tree;
+    const float   *heights;
+    int            level;
+} build;
+
+static void build_row(void *context, int row, int worker)
+{
+    (void)worker;
+    const build *b = context;
+    for (int x = 0; x < b->tree->levels[b->level].columns; x++) {
+        if (b->level == 0) {
+            copy_block(b->tree, b->heights, x, row);
+        } else {
+            gather_node(b->tree, b->level, x, row);
+        }
+    }
+}
+
+hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, int height,
+                        int threads, hc_log *log)
+{
+    *tree               = (hc_block_tree){ .width = width, .height = height };
+    const size_t floats = lay_out(tree);
+    tree->store = aligned_alloc(64, floats * sizeof(float)); /* a node is one 64-byte line */
+    if (tree->store == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY,
+                       "no memory for the search tree of %d x %d samples (%zu bytes)", width,
+                       height, floats * sizeof(float));
+    }
+    place_levels(tree);
+    find_range(tree, heights);
+    build b = { .tree = tree, .heights = heights };
+    for (; b.level < tree->count; b.level++) {
+        (void)hc_parallel_for(tree->levels[b.level].rows, threads, build_row, &b,
+                              (hc_progress){ 0 }, log);
+    }
+    return HC_OK;
+}
+
+void hc_tree_free(hc_block_tree *tree)
+{
+    free(tree->store);
+    *tree = (hc_block_tree){ 0 };
+}
+
+static bool within_range(const hc_block_tree *tree, const float *heights, hc_rect changed)
+{
+    for (int y = changed.y; y < changed.y + changed.height; y++) {
+        for (int x = changed.x; x < changed.x + changed.width; x++) {
+            const float lifted = heights[(size_t)y * (size_t)tree->width + (size_t)x] - tree->base;
+            if (lifted < 0.0F || lifted > tree->range) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+bool hc_tree_update(hc_block_tree *tree, const float *heights, hc_rect changed)
+{
+    int left   = changed.x / SIDE;
+    int top    = changed.y / SIDE;
+    int right  = (changed.x + changed.width - 1) / SIDE;
+    int bottom = (changed.y + changed.height - 1) / SIDE;
+    for (int k = 0; k < tree->count; k++) {
+        for (int y = top; y <= bottom; y++) {
+            for (int x = left; x <= right; x++) {
+                if (k == 0) {
+                    copy_block(tree, heights, x, y);
+                } else {
+                    gather_node(tree, k, x, y);
+                }
+            }
+        }
+        left /= SIDE;
+        top /= SIDE;
+        right /= SIDE;
+        bottom /= SIDE;
+    }
+    return within_range(tree, heights, changed);
+}

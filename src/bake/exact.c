@@ -1,0 +1,195 @@
+/* Exact cone maps: the passes that each kind of cone needs, over all tiles. */
+#include "exact.h"
+
+#include "base/fail.h"
+#include "base/parallel.h"
+#include "canonical.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- tables of weights ---- */
+
+static bool in_quadrant(const hc_exact_pass *pass, int dx, int dy)
+{
+    return dx * pass->sign_u >= 0 && dy * pass->sign_v >= 0;
+}
+
+static float weight(const hc_exact_pass *pass, int dx, int dy)
+{
+    if ((dx == 0 && dy == 0) || !in_quadrant(pass, dx, dy)) {
+        return 0.0F;
+    }
+    return pass->diamond ? hc_weight_l1(abs(dx), abs(dy), pass->step_u, pass->step_v)
+                         : hc_weight_l2(abs(dx), abs(dy), pass->step_u, pass->step_v);
+}
+
+static void fill_sample_weights(hc_near_table *table, const hc_exact_pass *pass)
+{
+    for (int y = 0; y < HC_NEAR_SIDE; y++) {
+        for (int x = 0; x < HC_NEAR_SIDE; x++) {
+            for (int p = 0; p < 16; p++) {
+                table->sample[y][x][p] =
+                    weight(pass, x - HC_NEAR_REACH - p % 4, y - HC_NEAR_REACH - p / 4);
+            }
+        }
+    }
+}
+
+static void fill_block_weights(hc_near_table *table)
+{
+    for (int y = 0; y < HC_NEAR_BLOCKS; y++) {
+        for (int x = 0; x < HC_NEAR_BLOCKS; x++) {
+            for (int p = 0; p < 16; p++) {
+                float most = 0.0F;
+                for (int q = 0; q < 16; q++) {
+                    const float w = table->sample[4 * y + q / 4][4 * x + q % 4][p];
+                    most          = w > most ? w : most;
+                }
+                table->block[y][x][p] = most;
+            }
+        }
+    }
+}
+
+/* ---- passes ---- */
+
+static void set_passes(hc_exact_plan *plan, const hc_cone_job *job)
+{
+    plan->count = hc_exact_pass_count(job->cones);
+    for (int i = 0; i < plan->count; i++) {
+        const float    stretch = job->cones == HC_CONES_ANISO ? hc_aniso_elongation[i] : 1.0F;
+        hc_exact_pass *pass    = &plan->passes[i];
+        *pass                  = (hc_exact_pass){ .tree    = &plan->tree,
+                                                  .near    = &plan->tables[i],
+                                                  .step_u  = job->step_u * stretch,
+                                                  .step_v  = job->step_v / stretch,
+                                                  .diamond = job->cones != HC_CONES_L2,
+                                                  .wrap_u  = job->wrap_u,
+                                                  .wrap_v  = job->wrap_v };
+        if (job->cones == HC_CONES_QUAD) {
+            pass->sign_u = i % 2 == 0 ? 1 : -1;
+            pass->sign_v = i / 2 == 0 ? 1 : -1;
+        }
+        fill_sample_weights(&plan->tables[i], pass);
+        fill_block_weights(&plan->tables[i]);
+    }
+}
+
+int hc_exact_pass_count(hc_cones cones)
+{
+    return cones == HC_CONES_QUAD ? 4 : cones == HC_CONES_ANISO ? HC_ANISO_COUNT : 1;
+}
+
+static hc_exact_tile tile_kernel(hc_isa isa)
+{
+#if defined(__x86_64__) && !defined(HC_FORCE_SCALAR)
+    if (isa == HC_ISA_AVX512) {
+        return hc_exact_tile_avx512;
+    }
+    if (isa == HC_ISA_AVX2) {
+        return hc_exact_tile_avx2;
+    }
+#endif
+    (void)isa;
+    return hc_exact_tile_scalar;
+}
+
+hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job)
+{
+    *plan          = (hc_exact_plan){ .kernel = tile_kernel(job->isa), .cones = job->cones };
+    const size_t n = (size_t)hc_exact_pass_count(job->cones);
+    plan->tables   = aligned_alloc(64, n * sizeof *plan->tables);
+    plan->scratch  = calloc((size_t)job->threads * n, sizeof *plan->scratch);
+    if (plan->tables == NULL || plan->scratch == NULL) {
+        hc_exact_plan_finish(plan);
+        return hc_fail(job->log, HC_ERROR_MEMORY, "no memory for the tables of %zu searches", n);
+    }
+    const hc_result built =
+        hc_tree_build(&plan->tree, job->heights, job->width, job->height, job->threads, job->log);
+    if (built != HC_OK) {
+        hc_exact_plan_finish(plan);
+        return built;
+    }
+    set_passes(plan, job);
+    return HC_OK;
+}
+
+void hc_exact_plan_finish(hc_exact_plan *plan)
+{
+    hc_tree_free(&plan->tree);
+    free(plan->tables);
+    free(plan->scratch);
+    *plan = (hc_exact_plan){ 0 };
+}
+
+/* ---- tiles ---- */
+
+/* Channels of one sample from what the passes found for it. */
+static void write_ratios(float *ratios, hc_cones cones, const float *steepness, int passes)
+{
+    if (cones == HC_CONES_ANISO) {
+        hc_aniso_choose(ratios, steepness);
+        return;
+    }
+    for (int i = 0; i < passes; i++) {
+        ratios[i] = hc_ratio(steepness[i]);
+    }
+}
+
+void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, int tile_y,
+                          int worker)
+{
+    enum { SAMPLES = HC_TILE_SIDE * HC_TILE_SIDE };
+    const int channels = hc_cones_channels(plan->cones);
+    float     found[HC_ANISO_COUNT][SAMPLES];
+    for (int i = 0; i < plan->count; i++) {
+        plan->kernel(found[i], &plan->passes[i], tile_x, tile_y,
+                     &plan->scratch[worker * plan->count + i]);
+    }
+    for (int s = 0; s < SAMPLES; s++) {
+        const int x = tile_x * HC_TILE_SIDE + s % HC_TILE_SIDE;
+        const int y = tile_y * HC_TILE_SIDE + s / HC_TILE_SIDE;
+        if (x < plan->tree.width && y < plan->tree.height) {
+            float steepness[HC_ANISO_COUNT];
+            for (int i = 0; i < plan->count; i++) {
+                steepness[i] = found[i][s];
+            }
+            const size_t at = (size_t)y * (size_t)plan->tree.width + (size_t)x;
+            write_ratios(ratios + at * (size_t)channels, plan->cones, steepness, plan->count);
+        }
+    }
+}
+
+typedef struct bake {
+    const hc_exact_plan *plan;
+    float               *ratios;
+} bake;
+
+/* Every other row backwards: the next tile is always a neighbour, whose first guesses are good. */
+static void bake_tile_row(void *context, int row, int worker)
+{
+    const bake *b     = context;
+    const int   tiles = (b->plan->tree.width + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
+    for (int i = 0; i < tiles; i++) {
+        hc_exact_search_tile(b->plan, b->ratios, row % 2 == 0 ? i : tiles - 1 - i, row, worker);
+    }
+}
+
+hc_result hc_exact_plan_run(const hc_exact_plan *plan, const hc_cone_job *job)
+{
+    bake      b    = { .plan = plan, .ratios = job->ratios };
+    const int rows = (job->height + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
+    return hc_parallel_for(rows, job->threads, bake_tile_row, &b, job->progress, job->log);
+}
+
+hc_result hc_cone_exact(const hc_cone_job *job)
+{
+    hc_exact_plan plan;
+    hc_result     result = hc_exact_plan_init(&plan, job);
+    if (result == HC_OK) {
+        result = hc_exact_plan_run(&plan, job);
+        hc_exact_plan_finish(&plan);
+    }
+    return result;
+}

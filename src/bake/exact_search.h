@@ -1,0 +1,66 @@
+/* What the exact search of one kind of cone needs, and its kernels. docs/algorithms.md explains the
+ * search; exact_kernel.h is its code, compiled once for each instruction set. */
+#ifndef HC_BAKE_EXACT_SEARCH_H
+#define HC_BAKE_EXACT_SEARCH_H
+
+#include "block_tree.h"
+
+/* The search works on tiles of 8 x 8 samples: four parts, each of the sixteen samples of a block. */
+#define HC_TILE_SIDE 8
+#define HC_TILE_PARTS 4
+
+/* Blocks whose corner lies up to this many samples from a part's corner take their weights from a
+ * table; beyond, weights are computed when needed. A multiple of 4. Larger tables left the L2 cache. */
+#define HC_NEAR_REACH 20
+#define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
+#define HC_NEAR_BLOCKS (2 * HC_NEAR_REACH / 4 + 1)
+
+typedef struct hc_near_table {
+    /* [row][column] + HC_NEAR_REACH: weights of a sample at that offset from a part's first sample, seen
+     * from each of the part's samples; 0 for the sample itself and outside the quadrant */
+    _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_SIDE][16];
+    /* the largest weight of any sample in the block at 4 * (column - HC_NEAR_REACH / 4) */
+    _Alignas(64) float block[HC_NEAR_BLOCKS][HC_NEAR_BLOCKS][16];
+} hc_near_table;
+
+/* One search: a metric, and all directions or one quadrant. */
+typedef struct hc_exact_pass {
+    const hc_block_tree *tree;
+    const hc_near_table *near;
+    float                step_u, step_v;
+    bool                 diamond;
+    int  sign_u, sign_v; /* 0: all directions; +1, -1: that side only (always both) */
+    bool wrap_u, wrap_v;
+} hc_exact_pass;
+
+#define HC_RECENT 8
+#define HC_LIST                                                                                    \
+    240 /* nodes of one level that wait; when full, the levels below are searched first */
+
+typedef struct hc_node_list {
+    int     count;
+    int32_t x[HC_LIST + 32], y[HC_LIST + 32];
+    float   top[HC_LIST + 32]; /* highest sample below the node, minus base */
+} hc_node_list;
+
+/* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are first
+ * guesses for the next tile, which its result does not depend on. */
+typedef struct hc_exact_scratch {
+    hc_node_list lists[HC_TREE_LEVELS_MAX];
+    float        recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
+    unsigned     recent_next;
+} hc_exact_scratch;
+
+/* Search one tile: the largest steepness of each sample into `steepness` (HC_TILE_SIDE rows of
+ * HC_TILE_SIDE, unspecified outside the field). */
+typedef void (*hc_exact_tile)(float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
+                              hc_exact_scratch *scratch);
+
+void hc_exact_tile_scalar(float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
+                          hc_exact_scratch *scratch);
+void hc_exact_tile_avx2(float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
+                        hc_exact_scratch *scratch);
+void hc_exact_tile_avx512(float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
+                          hc_exact_scratch *scratch);
+
+#endif

@@ -1,0 +1,315 @@
+/* Sixteen float lanes, in one place. The including file says which machine it is compiled for:
+ * HC_SIMD_AVX512, HC_SIMD_AVX2, or neither for portable C. All give the same bits, except the two
+ * functions called `about`.
+ *
+ * hc_v_max(a, b)     a > b ? a : b in every lane: of equal zeros, and of NaN, it is b. min likewise
+ * hc_v_greater       bit i: a > b in lane i
+ * hc_v_keep          a where the bit is set, 0 elsewhere
+ * hc_v_about_muladd  a * b + c, fused or not: for bounds with a margin, never for results
+ * hc_v_about_sqrt    at most the square root of a >= 0, and at least (1 - 2^-9) of it
+ * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) - first,
+ *                    0, 15) is the piece of a >= 0 on a scale of powers of two
+ * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even if
+ *                    fewer are set; returns how many are */
+#ifndef HC_BASE_SIMD_H
+#define HC_BASE_SIMD_H
+
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#define HC_LANES 16
+
+#if defined(HC_SIMD_AVX512)
+
+#include <immintrin.h>
+
+typedef __m512 hc_v;
+
+#define HC_V_UNARY(name, operation)                                                                \
+    static inline hc_v name(hc_v a)                                                                \
+    {                                                                                              \
+        return operation(a);                                                                       \
+    }
+#define HC_V_BINARY(name, operation)                                                               \
+    static inline hc_v name(hc_v a, hc_v b)                                                        \
+    {                                                                                              \
+        return operation(a, b);                                                                    \
+    }
+HC_V_BINARY(hc_v_add, _mm512_add_ps)
+HC_V_BINARY(hc_v_sub, _mm512_sub_ps)
+HC_V_BINARY(hc_v_mul, _mm512_mul_ps)
+HC_V_BINARY(hc_v_div, _mm512_div_ps)
+HC_V_BINARY(hc_v_max, _mm512_max_ps)
+HC_V_BINARY(hc_v_min, _mm512_min_ps)
+HC_V_UNARY(hc_v_sqrt, _mm512_sqrt_ps)
+HC_V_UNARY(hc_v_abs, _mm512_abs_ps)
+
+static inline hc_v hc_v_set(float a)
+{
+    return _mm512_set1_ps(a);
+}
+
+static inline hc_v hc_v_load(const float *p)
+{
+    return _mm512_loadu_ps(p);
+}
+
+static inline hc_v hc_v_from_ints(const int32_t *p)
+{
+    return _mm512_cvtepi32_ps(_mm512_loadu_si512(p));
+}
+
+static inline void hc_v_store(float *p, hc_v a)
+{
+    _mm512_storeu_ps(p, a);
+}
+
+static inline hc_v hc_v_about_muladd(hc_v a, hc_v b, hc_v c)
+{
+    return _mm512_fmadd_ps(a, b, c);
+}
+
+static inline hc_v hc_v_about_sqrt(hc_v a)
+{
+    const hc_v floor = _mm512_max_ps(a, _mm512_set1_ps(0x1p-60F)); /* no 0 * infinity */
+    const hc_v lower = _mm512_mul_ps(_mm512_rsqrt14_ps(floor), _mm512_set1_ps(1.0F - 0x1p-12F));
+    return _mm512_mul_ps(a, lower);
+}
+
+static inline unsigned hc_v_greater(hc_v a, hc_v b)
+{
+    return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ);
+}
+
+static inline hc_v hc_v_keep(unsigned lanes, hc_v a)
+{
+    return _mm512_maskz_mov_ps((__mmask16)lanes, a);
+}
+
+static inline hc_v hc_v_about_line(hc_v offsets, hc_v slopes, hc_v a, int shift, int first)
+{
+    const __m512i bits  = _mm512_srl_epi32(_mm512_castps_si512(a), _mm_cvtsi32_si128(shift));
+    const __m512i above = _mm512_sub_epi32(bits, _mm512_set1_epi32(first));
+    const __m512i least = _mm512_max_epi32(above, _mm512_setzero_si512());
+    const __m512i piece = _mm512_min_epi32(least, _mm512_set1_epi32(HC_LANES - 1));
+    return _mm512_fmadd_ps(_mm512_permutexvar_ps(piece, slopes), a,
+                           _mm512_permutexvar_ps(piece, offsets));
+}
+
+static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *values, int32_t add)
+{
+    const __m512i all = _mm512_add_epi32(_mm512_loadu_si512(values), _mm512_set1_epi32(add));
+    _mm512_storeu_si512(out, _mm512_maskz_compress_epi32((__mmask16)lanes, all));
+    return __builtin_popcount(lanes);
+}
+
+#elif defined(HC_SIMD_AVX2)
+
+#include <immintrin.h>
+
+typedef struct hc_v {
+    __m256 a, b; /* lanes 0 .. 7, 8 .. 15 */
+} hc_v;
+
+#define HC_V_BINARY(name, operation)                                                               \
+    static inline hc_v name(hc_v x, hc_v y)                                                        \
+    {                                                                                              \
+        return (hc_v){ operation(x.a, y.a), operation(x.b, y.b) };                                 \
+    }
+HC_V_BINARY(hc_v_add, _mm256_add_ps)
+HC_V_BINARY(hc_v_sub, _mm256_sub_ps)
+HC_V_BINARY(hc_v_mul, _mm256_mul_ps)
+HC_V_BINARY(hc_v_div, _mm256_div_ps)
+HC_V_BINARY(hc_v_max, _mm256_max_ps)
+HC_V_BINARY(hc_v_min, _mm256_min_ps)
+
+static inline hc_v hc_v_sqrt(hc_v x)
+{
+    return (hc_v){ _mm256_sqrt_ps(x.a), _mm256_sqrt_ps(x.b) };
+}
+
+static inline hc_v hc_v_abs(hc_v x)
+{
+    const __m256 sign = _mm256_set1_ps(-0.0F);
+    return (hc_v){ _mm256_andnot_ps(sign, x.a), _mm256_andnot_ps(sign, x.b) };
+}
+
+static inline hc_v hc_v_set(float a)
+{
+    return (hc_v){ _mm256_set1_ps(a), _mm256_set1_ps(a) };
+}
+
+static inline hc_v hc_v_load(const float *p)
+{
+    return (hc_v){ _mm256_loadu_ps(p), _mm256_loadu_ps(p + 8) };
+}
+
+static inline hc_v hc_v_from_ints(const int32_t *p)
+{
+    const __m256i *from = (const __m256i *)(const void *)p;
+    return (hc_v){ _mm256_cvtepi32_ps(_mm256_loadu_si256(from)),
+                   _mm256_cvtepi32_ps(_mm256_loadu_si256(from + 1)) };
+}
+
+static inline void hc_v_store(float *p, hc_v x)
+{
+    _mm256_storeu_ps(p, x.a);
+    _mm256_storeu_ps(p + 8, x.b);
+}
+
+static inline hc_v hc_v_about_muladd(hc_v x, hc_v y, hc_v z)
+{
+    return (hc_v){ _mm256_fmadd_ps(x.a, y.a, z.a), _mm256_fmadd_ps(x.b, y.b, z.b) };
+}
+
+static inline __m256 hc_v_sqrt8(__m256 x)
+{
+    const __m256 floor = _mm256_max_ps(x, _mm256_set1_ps(0x1p-60F)); /* no 0 * infinity */
+    const __m256 lower = _mm256_mul_ps(_mm256_rsqrt_ps(floor), _mm256_set1_ps(1.0F - 0x1p-10F));
+    return _mm256_mul_ps(x, lower);
+}
+
+static inline hc_v hc_v_about_sqrt(hc_v x)
+{
+    return (hc_v){ hc_v_sqrt8(x.a), hc_v_sqrt8(x.b) };
+}
+
+static inline unsigned hc_v_greater(hc_v x, hc_v y)
+{
+    const int low  = _mm256_movemask_ps(_mm256_cmp_ps(x.a, y.a, _CMP_GT_OQ));
+    const int high = _mm256_movemask_ps(_mm256_cmp_ps(x.b, y.b, _CMP_GT_OQ));
+    return (unsigned)low | (unsigned)high << 8;
+}
+
+static inline __m256 hc_v_keep8(unsigned lanes, __m256 x)
+{
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i set = _mm256_and_si256(_mm256_set1_epi32((int)lanes), bit);
+    return _mm256_and_ps(_mm256_castsi256_ps(_mm256_cmpeq_epi32(set, bit)), x);
+}
+
+static inline hc_v hc_v_keep(unsigned lanes, hc_v x)
+{
+    return (hc_v){ hc_v_keep8(lanes & 255, x.a), hc_v_keep8(lanes >> 8, x.b) };
+}
+
+static inline __m256 hc_v_line8(hc_v offsets, hc_v slopes, __m256 x, int shift, int first)
+{
+    const __m256i bits  = _mm256_srl_epi32(_mm256_castps_si256(x), _mm_cvtsi32_si128(shift));
+    const __m256i above = _mm256_sub_epi32(bits, _mm256_set1_epi32(first));
+    const __m256i least = _mm256_max_epi32(above, _mm256_setzero_si256());
+    const __m256i piece = _mm256_min_epi32(least, _mm256_set1_epi32(HC_LANES - 1));
+    const __m256  upper = _mm256_castsi256_ps(_mm256_slli_epi32(piece, 28)); /* sign: piece >= 8 */
+    const __m256  slope = _mm256_blendv_ps(_mm256_permutevar8x32_ps(slopes.a, piece),
+                                           _mm256_permutevar8x32_ps(slopes.b, piece), upper);
+    const __m256  start = _mm256_blendv_ps(_mm256_permutevar8x32_ps(offsets.a, piece),
+                                           _mm256_permutevar8x32_ps(offsets.b, piece), upper);
+    return _mm256_fmadd_ps(slope, x, start);
+}
+
+static inline hc_v hc_v_about_line(hc_v offsets, hc_v slopes, hc_v x, int shift, int first)
+{
+    return (hc_v){ hc_v_line8(offsets, slopes, x.a, shift, first),
+                   hc_v_line8(offsets, slopes, x.b, shift, first) };
+}
+
+static inline int hc_pack8(int32_t *out, unsigned lanes, __m256i values)
+{
+    const uint64_t bytes = _pdep_u64(lanes, 0x0101010101010101U) * 255;
+    const uint64_t order = _pext_u64(0x0706050403020100U, bytes);
+    const __m256i  index = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
+    _mm256_storeu_si256((__m256i *)(void *)out, _mm256_permutevar8x32_epi32(values, index));
+    return __builtin_popcount(lanes);
+}
+
+static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *values, int32_t add)
+{
+    const __m256i *from = (const __m256i *)(const void *)values;
+    const __m256i  all  = _mm256_set1_epi32(add);
+    const __m256i  low  = _mm256_add_epi32(_mm256_loadu_si256(from), all);
+    const __m256i  high = _mm256_add_epi32(_mm256_loadu_si256(from + 1), all);
+    const int      n    = hc_pack8(out, lanes & 255, low);
+    return n + hc_pack8(out + n, lanes >> 8, high);
+}
+
+#else
+
+typedef struct hc_v {
+    float lane[HC_LANES];
+} hc_v;
+
+#define HC_V_EACH(name, parameters, expression)                                                    \
+    static inline hc_v name parameters                                                             \
+    {                                                                                              \
+        hc_v r;                                                                                    \
+        for (int i = 0; i < HC_LANES; i++) {                                                       \
+            r.lane[i] = expression;                                                                \
+        }                                                                                          \
+        return r;                                                                                  \
+    }
+HC_V_EACH(hc_v_add, (hc_v a, hc_v b), a.lane[i] + b.lane[i])
+HC_V_EACH(hc_v_sub, (hc_v a, hc_v b), a.lane[i] - b.lane[i])
+HC_V_EACH(hc_v_mul, (hc_v a, hc_v b), a.lane[i] * b.lane[i])
+HC_V_EACH(hc_v_div, (hc_v a, hc_v b), a.lane[i] / b.lane[i])
+HC_V_EACH(hc_v_max, (hc_v a, hc_v b), a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i])
+HC_V_EACH(hc_v_min, (hc_v a, hc_v b), a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i])
+HC_V_EACH(hc_v_sqrt, (hc_v a), sqrtf(a.lane[i]))
+HC_V_EACH(hc_v_about_sqrt, (hc_v a), sqrtf(a.lane[i]) * (1.0F - 0x1p-12F))
+HC_V_EACH(hc_v_abs, (hc_v a), fabsf(a.lane[i]))
+HC_V_EACH(hc_v_set, (float a), a)
+HC_V_EACH(hc_v_load, (const float *p), p[i])
+HC_V_EACH(hc_v_from_ints, (const int32_t *p), (float)p[i])
+HC_V_EACH(hc_v_about_muladd, (hc_v a, hc_v b, hc_v c), a.lane[i] * b.lane[i] + c.lane[i])
+HC_V_EACH(hc_v_keep, (unsigned lanes, hc_v a), (lanes >> i & 1) != 0 ? a.lane[i] : 0.0F)
+
+static inline void hc_v_store(float *p, hc_v a)
+{
+    memcpy(p, a.lane, sizeof a.lane);
+}
+
+static inline unsigned hc_v_greater(hc_v a, hc_v b)
+{
+    unsigned lanes = 0;
+    for (int i = 0; i < HC_LANES; i++) {
+        lanes |= (unsigned)(a.lane[i] > b.lane[i]) << i;
+    }
+    return lanes;
+}
+
+static inline hc_v hc_v_about_line(hc_v offsets, hc_v slopes, hc_v a, int shift, int first)
+{
+    hc_v r;
+    for (int i = 0; i < HC_LANES; i++) {
+        int32_t bits;
+        memcpy(&bits, &a.lane[i], sizeof bits);
+        const int above = (bits >> shift) - first;
+        const int piece = above < 0 ? 0 : above < HC_LANES ? above : HC_LANES - 1;
+        r.lane[i]       = slopes.lane[piece] * a.lane[i] + offsets.lane[piece];
+    }
+    return r;
+}
+
+static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *values, int32_t add)
+{
+    int count = 0;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        out[count++] = values[__builtin_ctz(lanes)] + add;
+    }
+    return count;
+}
+
+#endif
+
+/* The kept lanes of sixteen floats, densely; writes like hc_pack_lanes. */
+static inline int hc_pack_floats(float *out, unsigned lanes, const float *values)
+{
+    int32_t bits[HC_LANES];
+    int32_t packed[HC_LANES];
+    memcpy(bits, values, sizeof bits);
+    const int count = hc_pack_lanes(packed, lanes, bits, 0);
+    memcpy(out, packed, sizeof packed);
+    return count;
+}
+
+#endif
