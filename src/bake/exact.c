@@ -97,10 +97,11 @@ static hc_exact_tile tile_kernel(hc_isa isa)
 
 hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job)
 {
-    *plan          = (hc_exact_plan){ .kernel = tile_kernel(job->isa), .cones = job->cones };
-    const size_t n = (size_t)hc_exact_pass_count(job->cones);
-    plan->tables   = aligned_alloc(64, n * sizeof *plan->tables);
-    plan->scratch  = calloc((size_t)job->threads * n, sizeof *plan->scratch);
+    *plan               = (hc_exact_plan){ .kernel = tile_kernel(job->isa), .cones = job->cones };
+    const size_t n      = (size_t)hc_exact_pass_count(job->cones);
+    plan->tables        = aligned_alloc(64, n * sizeof *plan->tables);
+    plan->scratch       = calloc((size_t)job->threads * n, sizeof *plan->scratch);
+    plan->scratch_count = (size_t)job->threads * n;
     if (plan->tables == NULL || plan->scratch == NULL) {
         hc_exact_plan_finish(plan);
         return hc_fail(job->log, HC_ERROR_MEMORY, "no memory for the tables of %zu searches", n);
@@ -121,6 +122,11 @@ void hc_exact_plan_finish(hc_exact_plan *plan)
     free(plan->tables);
     free(plan->scratch);
     *plan = (hc_exact_plan){ 0 };
+}
+
+void hc_exact_plan_forget(hc_exact_plan *plan)
+{
+    memset(plan->scratch, 0, plan->scratch_count * sizeof *plan->scratch);
 }
 
 /* ---- tiles ---- */
@@ -156,7 +162,9 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
                 steepness[i] = found[i][s];
             }
             const size_t at = (size_t)y * (size_t)plan->tree.width + (size_t)x;
-            write_ratios(ratios + at * (size_t)channels, plan->cones, steepness, plan->count);
+            float       *to = ratios + at * (size_t)channels;
+            write_ratios(to, plan->cones, steepness, plan->count);
+            hc_limit_ratios(to, (size_t)channels, plan->max_ratio);
         }
     }
 }

@@ -10,8 +10,9 @@ typedef struct hc_exact_plan {
     hc_exact_pass     passes[HC_ANISO_COUNT];
     int               count;
     hc_cones          cones;
-    hc_near_table    *tables;  /* one a pass                  */
-    hc_exact_scratch *scratch; /* one a worker and pass       */
+    float             max_ratio; /* ratios are cut at it; 0: not */
+    hc_near_table    *tables;    /* one a pass                  */
+    hc_exact_scratch *scratch;   /* one a worker and pass       */
     hc_exact_tile     kernel;
 } hc_exact_plan;
 
@@ -21,7 +22,10 @@ int hc_exact_pass_count(hc_cones cones);
 hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job);
 void      hc_exact_plan_finish(hc_exact_plan *plan);
 
-/* Search the whole field, or one tile of HC_TILE_SIDE^2 samples, and write the ratios, unlimited. */
+/* Drop first guesses: heights have changed. */
+void hc_exact_plan_forget(hc_exact_plan *plan);
+
+/* Search the whole field, or one tile of HC_TILE_SIDE^2 samples, and write the ratios. */
 hc_result hc_exact_plan_run(const hc_exact_plan *plan, const hc_cone_job *job);
 void      hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, int tile_y,
                                int worker);
