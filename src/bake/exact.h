@@ -13,6 +13,7 @@ typedef struct hc_exact_plan {
     float             max_ratio; /* ratios are cut at it; 0: not */
     hc_near_table    *tables;    /* one a pass                  */
     hc_exact_scratch *scratch;   /* one a worker and pass       */
+    size_t            scratch_count;
     hc_exact_tile     kernel;
 } hc_exact_plan;
 
