@@ -105,6 +105,12 @@ static void gather_node(const hc_block_tree *tree, int k, int x, int y)
     }
 }
 
+static void find_top(hc_block_tree *tree)
+{
+    const float lift = tree->count == 1 ? tree->base : 0.0F;
+    tree->top        = highest(hc_tree_node(&tree->levels[tree->count - 1], 0, 0)) - lift;
+}
+
 typedef struct build {
     hc_block_tree *tree;
     const float   *heights;
@@ -142,6 +148,7 @@ hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, in
         (void)hc_parallel_for(tree->levels[b.level].rows, threads, build_row, &b,
                               (hc_progress){ 0 }, log);
     }
+    find_top(tree);
     return HC_OK;
 }
 
@@ -185,5 +192,6 @@ bool hc_tree_update(hc_block_tree *tree, const float *heights, hc_rect changed)
         right /= SIDE;
         bottom /= SIDE;
     }
+    find_top(tree);
     return within_range(tree, heights, changed);
 }

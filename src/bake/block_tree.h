@@ -26,6 +26,7 @@ typedef struct hc_block_tree {
     int           count;
     int           width, height;
     float base, range; /* lowest height, highest minus lowest; 0 and 1 unless the range is small */
+    float top;         /* highest height, minus base                                            */
     void *store;
 } hc_block_tree;
 

@@ -56,7 +56,9 @@ typedef struct kind {
     bool diamond, quadrant;
 } kind;
 
+#ifndef INLINE
 #define INLINE static inline __attribute__((always_inline))
+#endif
 
 /* Offsets in columns and rows (rows scaled to columns) to what T is compared on: the square of the
  * distance for round cones, the distance for diamonds. */
@@ -453,7 +455,12 @@ INLINE void begin_tile(tile *t, int tile_x, int tile_y)
             t->height[part]        = hc_v_add(hc_v_keep(~outside & 0xFFFFU, samples),
                                               hc_v_keep(outside, hc_v_set(ABOVE_ALL)));
         }
-        t->lifted[part] = hc_v_sub(t->height[part], hc_v_set(tree->base));
+        /* Nothing limits the highest samples. Level lines at the top of the envelope would keep all
+         * others that are as high promising. */
+        const hc_v     lifted = hc_v_sub(t->height[part], hc_v_set(tree->base));
+        const unsigned lower  = hc_v_greater(hc_v_set(tree->top), lifted);
+        t->lifted[part] =
+            hc_v_add(hc_v_keep(lower, lifted), hc_v_keep(~lower & 0xFFFFU, hc_v_set(ABOVE_ALL)));
     }
 }
 
