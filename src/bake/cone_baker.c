@@ -28,6 +28,7 @@ typedef struct update {
     int            change_count;
     int           *tiles; /* indices of tiles to search, row-major */
     int            tile_count;
+    size_t         sample_count; /* in these tiles */
     bool          *group_touched;
 } update;
 
@@ -234,6 +235,7 @@ static void choose_tiles_of(update *u, int group_x, int group_y)
             hc_reach_of(reaches, &baker->plan, u->ratios, baker->plan.max_ratio, rect);
             if (overlaps(rect, u->changed) || any_included(u, reaches, rect)) {
                 u->tiles[u->tile_count++] = y * tile_columns(baker) + x;
+                u->sample_count += (size_t)rect.width * (size_t)rect.height;
                 u->group_touched[group_y * baker->group_columns + group_x] = true;
             }
         }
@@ -304,7 +306,7 @@ hc_result hc_cone_baker_update(hc_cone_baker *baker, float *ratios, const float 
                               ? hc_fail(log, HC_ERROR_MEMORY, "no memory to update %zu tiles", rows)
                               : apply(&u, heights, log);
     if (rebaked != NULL) {
-        *rebaked = (size_t)u.tile_count * HC_TILE_SIDE * HC_TILE_SIDE;
+        *rebaked = u.sample_count;
     }
     free(u.tiles);
     free(u.group_touched);
