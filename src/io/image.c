@@ -81,7 +81,9 @@ hc_result hc_image_prepare(hc_image *image, const hc_source *source, uint64_t wi
     if (header_only) {
         return HC_OK;
     }
-    image->data = malloc(hc_image_bytes(image));
+    /* zeroed: some decoders leave gaps in damaged files and call it success (libtiff with
+     * libdeflate) */
+    image->data = calloc(1, hc_image_bytes(image));
     if (image->data == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY, "%s: no memory for %zu bytes of samples", source->name,
                        hc_image_bytes(image));

@@ -266,7 +266,7 @@ static bool read_block(TIFF *handle, const level *into, uint32_t index, uint8_t 
 static hc_result read_through_buffer(hc_tiff *tiff, const level *into, size_t block_size,
                                      hc_log *log)
 {
-    uint8_t *block = malloc(block_size);
+    uint8_t *block = calloc(1, block_size); /* zeroed: see hc_image_prepare */
     if (block == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY, "%s: no memory for a block of %zu bytes",
                        tiff->source->name, block_size);

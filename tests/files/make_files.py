@@ -182,6 +182,8 @@ def exrs(folder):
         [[[wide(x, y) / 8192 for x in range(W)]] for y in range(H)])
     HERE = kept
     run("exrmaketiled", "-o", "-t", 16, 16, "-z", "zip", strips, HERE / "tiles.exr")
+    for packing in "rle", "pxr24", "b44", "dwaa":
+        run("exrmaketiled", "-o", "-t", 32, 32, "-z", packing, strips, HERE / f"tiles_{packing}.exr")
     run("exrmaketiled", "-m", "-t", 16, 16, "-z", "piz", strips, HERE / "tiles_mips.exr")
 
 

@@ -16,10 +16,11 @@ static const hc_limits limits = { .max_samples = 1 << 20, .max_bytes = 1 << 20 }
 
 static float heights[SAMPLES];
 
-static bool holds(const char *name, const char *ending)
+static bool ends(const char *name, const char *ending)
 {
     const size_t length = strlen(name);
-    return strcmp(name + length - strlen(ending), ending) == 0;
+    const size_t wanted = strlen(ending);
+    return length >= wanted && strcmp(name + length - wanted, ending) == 0;
 }
 
 static void save(const char *path, const char *ending)
@@ -30,7 +31,7 @@ static void save(const char *path, const char *ending)
     for (int i = 0; i < SAMPLES; i++) {
         heights[i] = (float)(next_number(&seed) % 256U) / 255.0F;
     }
-    if (!holds(ending, "ktx2") && !holds(ending, "dds") && strchr(ending, '.') == NULL) {
+    if (!ends(ending, "ktx2") && !ends(ending, "dds") && strchr(ending, '.') == NULL) {
         const hc_field field = { heights, WIDTH, HEIGHT, .elevation = { .high = 255.0 } };
         assert_ok(hc_save_field(&field, path, &overwrite, &log), &log);
         return;
@@ -98,7 +99,7 @@ static void test_cut_files(void **state)
         unsigned char *bytes = make_file(endings[i], &size);
         hc_log         log   = { .text = "" };
         hc_result      result;
-        assert_true(load_all(bytes, size, &result, &log) || holds(endings[i], "pfm"));
+        assert_true(load_all(bytes, size, &result, &log) || ends(endings[i], "pfm"));
         for (size_t cut = 0; cut < size; cut++) {
             unsigned char *part = malloc(cut + 1); /* so that reading beyond is seen */
             assert_non_null(part);
@@ -382,6 +383,19 @@ static void test_raw(void **state)
     assert_refused(hc_load_field(&field, path, &options, &log), HC_ERROR_FORMAT, &log, path, "12");
 }
 
+/* Neither a file's name nor its bytes get control characters into a message. */
+static void test_one_line(void **state)
+{
+    (void)state;
+    hc_log      log  = { .text = "" };
+    const char *path = in_folder("two\nlines\x1B[2J.npy");
+    hc_field    field;
+    write_bytes(path, "\x93NUMPY\1\0\x10\0{'a\nb\x1B[2J': True}", 26);
+    assert_int_equal(hc_load_field(&field, path, NULL, &log), HC_ERROR_FORMAT);
+    assert_non_null(strstr(log.text, "two?lines?[2J.npy"));
+    assert_non_null(strstr(log.text, "a?b?[2J"));
+}
+
 static void test_missing(void **state)
 {
     (void)state;
@@ -406,7 +420,7 @@ int main(void)
         cmocka_unit_test(test_no_format),  cmocka_unit_test(test_absurd_headers),
         cmocka_unit_test(test_absurd_png), cmocka_unit_test(test_nan_samples),
         cmocka_unit_test(test_limits),     cmocka_unit_test(test_raw),
-        cmocka_unit_test(test_missing),
+        cmocka_unit_test(test_one_line),   cmocka_unit_test(test_missing),
     };
     return cmocka_run_group_tests(tests, fixture_begin, fixture_end);
 }
