@@ -73,11 +73,12 @@ INLINE hc_v measure(kind k, hc_v across, hc_v down)
  * lowest height with the least T would. */
 INLINE envelope draw_envelope(const tile *t, int first_part, int parts)
 {
-    const hc_exact_pass *pass  = t->pass;
-    const hc_v           start = hc_v_load(PIECE_ENDS);
-    const hc_v           end   = hc_v_load(PIECE_ENDS + 1);
-    hc_v                 low   = hc_v_set(2.0F * pass->tree->range); /* keeps chords precise */
-    hc_v                 high  = low;
+    const hc_exact_pass *pass     = t->pass;
+    const hc_v           start    = hc_v_load(PIECE_ENDS);
+    const hc_v           end      = hc_v_load(PIECE_ENDS + 1);
+    const hc_v           most     = hc_v_set(2.0F * pass->tree->range); /* keeps chords precise */
+    hc_v                 lows[4]  = { most, most, most, most }; /* short chains, as in take_near */
+    hc_v                 highs[4] = { most, most, most, most };
     for (int part = first_part; part < first_part + parts; part++) {
         float heights[HC_LANES], rises[HC_LANES];
         hc_v_store(heights, t->lifted[part]);
@@ -85,10 +86,12 @@ INLINE envelope draw_envelope(const tile *t, int first_part, int parts)
         for (int p = 0; p < HC_LANES; p++) {
             const hc_v height = hc_v_set(heights[p]);
             const hc_v rise   = hc_v_set(rises[p]);
-            low               = hc_v_min(hc_v_about_muladd(rise, start, height), low);
-            high              = hc_v_min(hc_v_about_muladd(rise, end, height), high);
+            lows[p % 4]       = hc_v_min(hc_v_about_muladd(rise, start, height), lows[p % 4]);
+            highs[p % 4]      = hc_v_min(hc_v_about_muladd(rise, end, height), highs[p % 4]);
         }
     }
+    const hc_v low    = hc_v_min(hc_v_min(lows[0], lows[1]), hc_v_min(lows[2], lows[3]));
+    const hc_v high   = hc_v_min(hc_v_min(highs[0], highs[1]), hc_v_min(highs[2], highs[3]));
     const hc_v margin = hc_v_set(pass->tree->range * 0x1p-19F);
     envelope   drawn;
     drawn.slopes  = hc_v_div(hc_v_sub(high, low), hc_v_sub(end, start));
@@ -127,19 +130,21 @@ INLINE unsigned promising(kind k, const tile *t, const envelope *hull, hc_v acro
 
 /* ---- samples against samples ---- */
 
-/* A near block against one part: no tests, the table holds the canonical weights.
+/* A near block against one part: no tests, the table holds the canonical weights. Rows keep maxima of
+ * their own, since one chain of sixteen maxima would take longer than all the rest.
  * The order of hc_v_max matters: rise * 0 may be -0, which must not replace S. */
 INLINE hc_v take_near(hc_v S, hc_v height, const hc_near_table *table, const float *samples, int dx,
                       int dy)
 {
+    hc_v rows[4] = { S, S, S, S };
     for (int r = 0; r < 4; r++) {
         const float(*weights)[16] = &table->sample[dy + r + HC_NEAR_REACH][dx + HC_NEAR_REACH];
         for (int c = 0; c < 4; c++) {
             const hc_v rise = hc_v_sub(hc_v_set(samples[4 * r + c]), height);
-            S               = hc_v_max(hc_v_mul(rise, hc_v_load(weights[c])), S);
+            rows[r]         = hc_v_max(hc_v_mul(rise, hc_v_load(weights[c])), rows[r]);
         }
     }
-    return S;
+    return hc_v_max(hc_v_max(rows[0], rows[1]), hc_v_max(rows[2], rows[3]));
 }
 
 INLINE hc_v part_columns(const tile *t, int part)

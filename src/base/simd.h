@@ -235,59 +235,100 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
 
 #else
 
+/* The compiler's own vectors of four; it finds the machine's, or does without. */
+typedef float   hc_quarter __attribute__((vector_size(16)));
+typedef int32_t hc_quarter_bits __attribute__((vector_size(16)));
 typedef struct hc_v {
-    float lane[HC_LANES];
+    hc_quarter q[HC_LANES / 4];
 } hc_v;
 
-#define HC_V_EACH(name, parameters, expression)                                                    \
+#define HC_V_QUARTERS(name, parameters, expression)                                                \
     static inline hc_v name parameters                                                             \
     {                                                                                              \
         hc_v r;                                                                                    \
-        for (int i = 0; i < HC_LANES; i++) {                                                       \
-            r.lane[i] = expression;                                                                \
+        for (int i = 0; i < HC_LANES / 4; i++) {                                                   \
+            r.q[i] = expression;                                                                   \
         }                                                                                          \
         return r;                                                                                  \
     }
-HC_V_EACH(hc_v_add, (hc_v a, hc_v b), a.lane[i] + b.lane[i])
-HC_V_EACH(hc_v_sub, (hc_v a, hc_v b), a.lane[i] - b.lane[i])
-HC_V_EACH(hc_v_mul, (hc_v a, hc_v b), a.lane[i] * b.lane[i])
-HC_V_EACH(hc_v_div, (hc_v a, hc_v b), a.lane[i] / b.lane[i])
-HC_V_EACH(hc_v_max, (hc_v a, hc_v b), a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i])
-HC_V_EACH(hc_v_min, (hc_v a, hc_v b), a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i])
-HC_V_EACH(hc_v_sqrt, (hc_v a), sqrtf(a.lane[i]))
-HC_V_EACH(hc_v_about_sqrt, (hc_v a), sqrtf(a.lane[i]) * (1.0F - 0x1p-12F))
-HC_V_EACH(hc_v_abs, (hc_v a), fabsf(a.lane[i]))
-HC_V_EACH(hc_v_set, (float a), a)
-HC_V_EACH(hc_v_load, (const float *p), p[i])
-HC_V_EACH(hc_v_from_ints, (const int32_t *p), (float)p[i])
-HC_V_EACH(hc_v_about_muladd, (hc_v a, hc_v b, hc_v c), a.lane[i] * b.lane[i] + c.lane[i])
-HC_V_EACH(hc_v_keep, (unsigned lanes, hc_v a), (lanes >> i & 1) != 0 ? a.lane[i] : 0.0F)
+
+static inline hc_quarter hc_choose(hc_quarter_bits mask, hc_quarter a, hc_quarter b)
+{
+    return (hc_quarter)(((hc_quarter_bits)a & mask) | ((hc_quarter_bits)b & ~mask));
+}
+
+static inline hc_quarter hc_sqrt4(hc_quarter a)
+{
+    return (hc_quarter){ sqrtf(a[0]), sqrtf(a[1]), sqrtf(a[2]), sqrtf(a[3]) };
+}
+
+HC_V_QUARTERS(hc_v_add, (hc_v a, hc_v b), a.q[i] + b.q[i])
+HC_V_QUARTERS(hc_v_sub, (hc_v a, hc_v b), a.q[i] - b.q[i])
+HC_V_QUARTERS(hc_v_mul, (hc_v a, hc_v b), a.q[i] * b.q[i])
+HC_V_QUARTERS(hc_v_div, (hc_v a, hc_v b), a.q[i] / b.q[i])
+HC_V_QUARTERS(hc_v_max, (hc_v a, hc_v b), hc_choose(a.q[i] > b.q[i], a.q[i], b.q[i]))
+HC_V_QUARTERS(hc_v_min, (hc_v a, hc_v b), hc_choose(a.q[i] < b.q[i], a.q[i], b.q[i]))
+HC_V_QUARTERS(hc_v_about_muladd, (hc_v a, hc_v b, hc_v c), a.q[i] * b.q[i] + c.q[i])
+HC_V_QUARTERS(hc_v_sqrt, (hc_v a), hc_sqrt4(a.q[i]))
+HC_V_QUARTERS(hc_v_about_sqrt, (hc_v a), hc_sqrt4(a.q[i]) * (1.0F - 0x1p-12F))
+HC_V_QUARTERS(hc_v_abs, (hc_v a), (hc_quarter)((hc_quarter_bits)a.q[i] & INT32_MAX))
+HC_V_QUARTERS(hc_v_set, (float a), ((hc_quarter){ a, a, a, a }))
+
+static inline hc_v hc_v_load(const float *p)
+{
+    hc_v a;
+    memcpy(&a, p, sizeof a);
+    return a;
+}
 
 static inline void hc_v_store(float *p, hc_v a)
 {
-    memcpy(p, a.lane, sizeof a.lane);
+    memcpy(p, &a, sizeof a);
+}
+
+static inline hc_v hc_v_from_ints(const int32_t *p)
+{
+    float a[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        a[i] = (float)p[i];
+    }
+    return hc_v_load(a);
 }
 
 static inline unsigned hc_v_greater(hc_v a, hc_v b)
 {
     unsigned lanes = 0;
-    for (int i = 0; i < HC_LANES; i++) {
-        lanes |= (unsigned)(a.lane[i] > b.lane[i]) << i;
+    for (int i = 0; i < HC_LANES / 4; i++) {
+        const hc_quarter_bits bit = (a.q[i] > b.q[i]) & (hc_quarter_bits){ 1, 2, 4, 8 };
+        lanes |= (unsigned)(bit[0] | bit[1] | bit[2] | bit[3]) << (4 * i);
     }
     return lanes;
 }
 
+static inline hc_v hc_v_keep(unsigned lanes, hc_v a)
+{
+    float kept[HC_LANES];
+    hc_v_store(kept, a);
+    for (int i = 0; i < HC_LANES; i++) {
+        kept[i] = (lanes >> i & 1) != 0 ? kept[i] : 0.0F;
+    }
+    return hc_v_load(kept);
+}
+
 static inline hc_v hc_v_about_line(hc_v offsets, hc_v slopes, hc_v a, int shift, int first)
 {
-    hc_v r;
+    float   start[HC_LANES], slope[HC_LANES], line[HC_LANES];
+    int32_t bits[HC_LANES];
+    hc_v_store(start, offsets);
+    hc_v_store(slope, slopes);
+    hc_v_store(line, a);
+    memcpy(bits, &a, sizeof bits);
     for (int i = 0; i < HC_LANES; i++) {
-        int32_t bits;
-        memcpy(&bits, &a.lane[i], sizeof bits);
-        const int above = (bits >> shift) - first;
+        const int above = (bits[i] >> shift) - first;
         const int piece = above < 0 ? 0 : above < HC_LANES ? above : HC_LANES - 1;
-        r.lane[i]       = slopes.lane[piece] * a.lane[i] + offsets.lane[piece];
+        line[i]         = slope[piece] * line[i] + start[piece];
     }
-    return r;
+    return hc_v_load(line);
 }
 
 static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *values, int32_t add)
