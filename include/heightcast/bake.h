@@ -178,8 +178,11 @@ HC_API hc_result hc_map_info_for(hc_map_info *info, const hc_field *field,
  * map      map->info from hc_map_info_for with the same field and options;
  *          map->texels [out] hc_map_bytes
  *
+ * Heights go to the nearest code; layout quad stores none, so its ratios are those of the field's
+ * own heights. Extremes are those of the field's own heights, rounded outwards. Layout height holds
+ * the heights alone in cone maps, the maxima alone in pyramids.
  * Work memory beyond that of hc_bake_cone_map: 4 bytes per sample for rounded heights, 4 per sample
- * and channel for ratios that are not stored as float.
+ * and channel for ratios that are not stored as float; pyramids 5.4 bytes per sample.
  * compat2006 needs at least 2 samples along both axes (the original reads outside the image
  * otherwise). */
 HC_API hc_result hc_bake_map(hc_map *map, const hc_field *field, const hc_map_options *options,
@@ -188,7 +191,9 @@ HC_API hc_result hc_bake_map(hc_map *map, const hc_field *field, const hc_map_op
 /* ---- judging --------------------------------------------------------------------------------- */
 
 /* How a map's ratios stand against brute force on the heights that the map itself stores (or on
- * `field` if it stores none): the figures of `heightcast verify`. */
+ * `field` if it stores none): the figures of `heightcast verify`. The two ratios of an elongated
+ * diamond (aniso) are judged together, by whether a sample is inside, for a method may choose
+ * another elongation than the canonical one. worst_x, worst_y: where widest_factor was found. */
 typedef struct hc_verdict {
     size_t checked;        /* texels * cone channels compared                                */
     size_t wider;          /* of these, wider than the canonical ratio                       */
