@@ -6,7 +6,7 @@
 
 #include <cmocka.h>
 
-enum { WIDTH = 37, HEIGHT = 19, TEXELS = WIDTH * HEIGHT };
+enum { WIDTH = 29, HEIGHT = 17, TEXELS = WIDTH * HEIGHT };
 
 static float heights[TEXELS];
 
@@ -40,11 +40,11 @@ static hc_verdict verdict_on(const hc_map *map, const hc_field *field, size_t te
 static void test_exact_maps_pass(void **state)
 {
     (void)state;
-    for (int i = 0; i < 4 * 3 * 4; i++) {
+    for (int i = 0; i < 4 * 3 * 2; i++) {
         hc_field             field;
         const hc_map_options options = { .bits = 8 << i / 4 % 3,
                                          .cone = { .cones = (hc_cones)(i % 4) } };
-        hc_map               map     = baked(&options, (hc_wrap)(i / 12), &field);
+        hc_map               map     = baked(&options, i < 12 ? HC_WRAP_NONE : HC_WRAP_UV, &field);
         const hc_verdict     verdict = verdict_on(&map, &field, 0, 2);
         assert_int_equal(verdict.checked, TEXELS * hc_cones_channels(options.cone.cones));
         assert_int_equal(verdict.wider, 0);
@@ -231,7 +231,7 @@ static void test_refusals(void **state)
     expect_refusal(&pyramid, &field, HC_ERROR_ARGUMENT, "pyramid map");
     expect_refusal(&bare, &field, HC_ERROR_ARGUMENT, "layout height");
     field.width -= 1;
-    expect_refusal(&map, &field, HC_ERROR_ARGUMENT, "37 x 19");
+    expect_refusal(&map, &field, HC_ERROR_ARGUMENT, "29 x 17");
     field.width += 1;
     heights[5] = 2.0F;
     expect_refusal(&map, &field, HC_ERROR_FIELD, "heights[5, 0]");
