@@ -15,6 +15,7 @@ import sys
 
 COMMENTS_AND_STRINGS = re.compile(r'/\*.*?\*/|"(?:\\.|[^"\\\n])*"|//[^\n]*', re.DOTALL)
 DECLARATION = re.compile(r"\bHC_API\b[^;{]*?\b(hc_\w+)\s*\(", re.DOTALL)
+LINKERS_OWN = {"__bss_start", "_edata", "_end", "_init", "_fini"}
 CALL = re.compile(r"\b(hc_\w+)\s*\(")
 
 
@@ -38,7 +39,7 @@ def exported(library):
     lines = subprocess.run(
         ["nm", "-D", "--defined-only", library], check=True, capture_output=True, text=True
     ).stdout.splitlines()
-    return {line.split()[-1] for line in lines}
+    return {line.split()[-1] for line in lines} - LINKERS_OWN
 
 
 def check_exports(root, libraries):

@@ -4,20 +4,18 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${FUZZ_SECONDS:-60}
+names=(tests/fuzz/corpus/*)
+names=("${names[@]##*/}")
 cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz -- --quiet
+cmake --build --preset fuzz --target "${names[@]/#/fuzz_}" -- --quiet
 failed=()
-for target in build/fuzz/tests/fuzz/fuzz_*; do
-    if [ -d "$target" ] || [ ! -x "$target" ]; then
-        continue
-    fi
-    name=$(basename "$target")
+for name in "${names[@]}"; do
     found=build/fuzz/found/$name
     mkdir -p "$found/new"
     echo "== $name for $seconds s"
-    "$target" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 -print_final_stats=1 \
-        -artifact_prefix="$found/" "$found/new" "tests/fuzz/corpus/${name#fuzz_}" 2>"$found/log" ||
-        failed+=("$name")
+    "build/fuzz/tests/fuzz/fuzz_$name" -max_total_time="$seconds" -rss_limit_mb=2048 -timeout=20 \
+        -print_final_stats=1 -artifact_prefix="$found/" "$found/new" "tests/fuzz/corpus/$name" \
+        2>"$found/log" || failed+=("$name")
     grep -E 'stat::number_of_executed_units|ERROR|SUMMARY' "$found/log" || true
 done
 if [ ${#failed[@]} -gt 0 ]; then

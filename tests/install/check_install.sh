@@ -13,7 +13,7 @@ mkdir -p "$folder"
 if [ "$kind" = shared ]; then
     build=$folder/build
     cmake -S "$root" -B "$build" -G Ninja -DCMAKE_BUILD_TYPE=Release -DBUILD_SHARED_LIBS=ON \
-        -DHC_WERROR=ON -DHC_BUILD_BENCH=OFF >/dev/null
+        -DHC_WERROR=ON -DHC_BUILD_BENCH=OFF -DCMAKE_SHARED_LINKER_FLAGS=-Wl,-z,defs >/dev/null
     cmake --build "$build" -- --quiet
 fi
 cmake --install "$build" --prefix "$folder/prefix" >/dev/null
