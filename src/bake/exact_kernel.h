@@ -261,24 +261,35 @@ INLINE hc_v block_gap(hc_v from, int first)
     return hc_v_max(hc_v_max(after, before), hc_v_set(0.0F));
 }
 
-/* Which of a distant block's samples some of the part's `needy` samples may gain from. Few are needy, so
- * they take turns, each against all sixteen. */
-INLINE unsigned distant_candidates(kind k, const tile *t, int part, unsigned needy, int x, int y,
-                                   const float *samples)
+/* Which rows of a distant block hold samples that the part may gain from.
+ * T * distance is convex, so it lies above its tangent plane at the block's middle. With the plane, a
+ * pair costs a multiply-add, a subtraction and a maximum. The middle lies half-way between samples: no
+ * offset to it is 0, and a diamond's gradient is a sign. */
+INLINE unsigned promising_rows(kind k, const tile *t, int part, int x, int y, const float *samples)
 {
-    const hc_v others  = hc_v_load(samples);
-    const hc_v columns = hc_v_add(hc_v_load(COLUMN), hc_v_set((float)(x - t->x - 4 * (part & 1))));
-    const hc_v rows    = hc_v_add(hc_v_load(ROW), hc_v_set((float)(y - t->y - 4 * (part >> 1))));
-    float      heights[HC_LANES], slopes[HC_LANES];
-    unsigned   found = 0;
-    hc_v_store(heights, t->height[part]);
-    hc_v_store(slopes, hc_v_mul(t->T[part], hc_v_set(t->pass->step_u)));
-    for (; needy != 0; needy &= needy - 1) {
-        const int  p      = __builtin_ctz(needy);
-        const hc_v rise   = hc_v_max(hc_v_sub(others, hc_v_set(heights[p])), hc_v_set(0.0F));
-        const hc_v across = hc_v_sub(columns, hc_v_set(COLUMN[p]));
-        const hc_v down   = hc_v_sub(rows, hc_v_set(ROW[p]));
-        found |= may_gain(k, t, hc_v_set(slopes[p]), rise, hc_v_abs(across), hc_v_abs(down));
+    const float range  = t->pass->tree->range;
+    const hc_v  slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
+    const hc_v  across = hc_v_sub(hc_v_set((float)x + 1.5F), part_columns(t, part));
+    const hc_v  rows   = hc_v_sub(hc_v_set((float)y + 1.5F), part_rows(t, part));
+    const hc_v  down   = hc_v_mul(rows, hc_v_set(t->aspect));
+    const hc_v  length = k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down))
+                                   : hc_v_sqrt(measure(k, across, down));
+    const hc_v  per_u  = hc_v_div(across, k.diamond ? hc_v_abs(across) : length);
+    const hc_v  per_v  = hc_v_div(down, k.diamond ? hc_v_abs(down) : length);
+    const hc_v  rise_u = hc_v_mul(slope, per_u);
+    const hc_v  rise_v = hc_v_mul(hc_v_mul(slope, per_v), hc_v_set(t->aspect));
+    const hc_v  height = hc_v_sub(t->lifted[part], hc_v_set(range * 0x1p-19F));
+    const hc_v  middle = hc_v_about_muladd(slope, length, height);
+    unsigned    found  = 0;
+    for (int r = 0; r < 4; r++) {
+        const hc_v row  = hc_v_about_muladd(rise_v, hc_v_set((float)r - 1.5F), middle);
+        hc_v       most = hc_v_set(-range);
+        for (int c = 0; c < 4; c++) {
+            const hc_v plane = hc_v_about_muladd(rise_u, hc_v_set((float)c - 1.5F), row);
+            const hc_v top   = hc_v_set(samples[4 * r + c] - t->pass->tree->base);
+            most             = hc_v_max(hc_v_sub(top, plane), most);
+        }
+        found |= (hc_v_greater(most, hc_v_set(0.0F)) != 0 ? 0xFU : 0U) << (4 * r);
     }
     return found;
 }
@@ -294,7 +305,7 @@ INLINE void search_distant_block(kind k, tile *t, int part, int x, int y, const 
     if (needy == 0) {
         return;
     }
-    unsigned found = distant_candidates(k, t, part, needy, x, y, samples);
+    unsigned found = promising_rows(k, t, part, x, y, samples);
     for (; found != 0; found &= found - 1) {
         const int i        = __builtin_ctz(found);
         const int sample_x = x + COLUMN_INDEX[i];
@@ -339,49 +350,52 @@ INLINE unsigned known_lanes(const tile *t, const offsets *o)
     return hc_v_greater(hc_v_set(t->home_image ? 5.0F : 0.0F), far);
 }
 
-INLINE void search_near_blocks(tile *t, int part, const hc_node_list *list)
-{
-    int     count = 0;
-    int32_t chosen[HC_LIST + 32];
-    for (int first = 0; first < list->count; first += HC_LANES) {
-        const offsets o = block_offsets(t, part, list, first);
-        count += hc_pack_lanes(chosen + count, near_lanes(t, &o) & ~known_lanes(t, &o), LANE_INDEX,
-                               first);
-    }
-    for (int i = 0; i < count; i++) {
-        const int x = list->x[chosen[i]];
-        const int y = list->y[chosen[i]];
-        search_near_block(t, part, 4 * x - t->x - 4 * (part & 1), 4 * y - t->y - 4 * (part >> 1),
-                          hc_tree_node(&t->pass->tree->levels[0], x, y), list->top[chosen[i]]);
-    }
-}
+/* Listed blocks that one part still needs, as indices into the list. */
+typedef struct choice {
+    int     near_count, distant_count;
+    int32_t near[HC_LIST + 32], distant[HC_LIST + 32];
+} choice;
 
-INLINE void search_distant_blocks(kind k, tile *t, int part, const hc_node_list *list)
+INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list, choice *chosen)
 {
-    const envelope hull  = draw_envelope(t, part, 1);
-    int            count = 0;
-    int32_t        chosen[HC_LIST + 32];
+    const envelope hull = draw_envelope(t, part, 1);
+    chosen->near_count = chosen->distant_count = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
         const offsets  o     = block_offsets(t, part, list, first);
         const hc_v     tops  = hc_v_load(list->top + first);
-        const unsigned found = promising(k, t, &hull, o.across, o.down, tops, 4, 4);
-        count +=
-            hc_pack_lanes(chosen + count, found & o.listed & ~near_lanes(t, &o), LANE_INDEX, first);
-    }
-    for (int i = 0; i < count; i++) {
-        const int x = list->x[chosen[i]];
-        const int y = list->y[chosen[i]];
-        search_distant_block(k, t, part, 4 * x, 4 * y,
-                             hc_tree_node(&t->pass->tree->levels[0], x, y), list->top[chosen[i]]);
+        const unsigned found = promising(k, t, &hull, o.across, o.down, tops, 4, 4) & o.listed;
+        const unsigned near  = near_lanes(t, &o);
+        chosen->near_count += hc_pack_lanes(chosen->near + chosen->near_count,
+                                            found & near & ~known_lanes(t, &o), LANE_INDEX, first);
+        chosen->distant_count += hc_pack_lanes(chosen->distant + chosen->distant_count,
+                                               found & ~near, LANE_INDEX, first);
     }
 }
 
 /* Near blocks first: they raise the thresholds that let distant ones be left out. */
+INLINE void search_part(kind k, tile *t, int part, const hc_node_list *list)
+{
+    const hc_tree_level *blocks = &t->pass->tree->levels[0];
+    const int            x      = t->x + 4 * (part & 1);
+    const int            y      = t->y + 4 * (part >> 1);
+    choice               chosen;
+    choose_blocks(k, t, part, list, &chosen);
+    for (int i = 0; i < chosen.near_count; i++) {
+        const int b = chosen.near[i];
+        search_near_block(t, part, 4 * list->x[b] - x, 4 * list->y[b] - y,
+                          hc_tree_node(blocks, list->x[b], list->y[b]), list->top[b]);
+    }
+    for (int i = 0; i < chosen.distant_count; i++) {
+        const int b = chosen.distant[i];
+        search_distant_block(k, t, part, 4 * list->x[b], 4 * list->y[b],
+                             hc_tree_node(blocks, list->x[b], list->y[b]), list->top[b]);
+    }
+}
+
 INLINE void search_blocks(kind k, tile *t, hc_node_list *list)
 {
     for (int part = 0; part < HC_TILE_PARTS; part++) {
-        search_near_blocks(t, part, list);
-        search_distant_blocks(k, t, part, list);
+        search_part(k, t, part, list);
     }
     list->count = 0;
     t->stale    = true;
