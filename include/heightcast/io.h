@@ -29,12 +29,16 @@ typedef struct hc_load_options {
 
 /* Load a height field. The format is found by content, not by name; "-" reads standard input (not
  * GDAL formats).
- * PNG 8/16 bit, TIFF 8/16/32 bit integer and 32/64 bit float with GeoTIFF scale, tie point and
- * nodata, EXR half/float, PGM/PPM 8/16, PFM, NPY (u1, u2, f4, f8; (height, width) or (height,
- * width, channels)), RAW; what GDAL reads if it was built in.
+ * PNG 1 to 16 bit, TIFF 8/16/32 bit integer and 32/64 bit float with GeoTIFF scale, tie point and
+ * nodata, EXR half/float/uint, PGM/PPM 8/16, PFM, NPY (u1, u2, i2, u4, i4, f4, f8; (height, width)
+ * or (height, width, channels)), RAW; what GDAL reads if it was built in.
  *
- * field  [out] field->heights is allocated; free with hc_free_field. Left zeroed on error.
+ * field    [out] field->heights is allocated; free with hc_free_field. Left zeroed on error.
+ * options  NULL or zero: defaults
  *
+ * Files with heightcast's own metadata say what their samples mean: with HC_RANGE_AUTO and
+ * HC_CHANNEL_AUTO the heights come back as they were saved, also out of a map's height channel, and
+ * elevation->low, high are the original ones.
  * Warns, naming the file: sRGB-tagged input; heights that use little of their range. Errors as in
  * result.h. */
 HC_API hc_result hc_load_field(hc_field *field, const char *path, const hc_load_options *options,
@@ -47,8 +51,8 @@ HC_API bool hc_io_has_gdal(void);
 typedef struct hc_save_options {
     bool overwrite; /* otherwise an existing file gives HC_ERROR_EXISTS            */
     int  bits;      /* fields only; maps have theirs                               */
-    int  level;     /* pyramids in containers without levels: which level to write,
-                       counted from 1; 0: refuse                                   */
+    int  level;     /* pyramids: write this level alone, counted from 1; 0: all of
+                       them, which containers without levels refuse                */
 } hc_save_options;
 
 /* Write heights as a field file, the original range and metadata with them: format by the name's
@@ -61,7 +65,8 @@ HC_API hc_result hc_save_field(const hc_field *field, const char *path,
 
 /* Write a map, its info in the container's own metadata: PNG (8, 16 bit), TIFF (8, 16, 32; one
  * directory per level), EXR (32), NPY (8, 16, 32; the info is a comment behind the header's
- * dictionary), KTX2 and DDS (8, 16, 32; levels).
+ * dictionary), KTX2 and DDS (8, 16, 32; levels). Same rules as hc_save_field. A level written alone
+ * is a map of that level's size with one level; its spacing and origin are the level's.
  * HC_ERROR_UNSUPPORTED names the containers that can hold the map. */
 HC_API hc_result hc_save_map(const hc_map *map, const char *path, const hc_save_options *options,
                              hc_log *log);
