@@ -1,0 +1,30 @@
+/* Measurements as they come in: a line of the table, a JSON object, a line of CSV; figures at the
+ * end. */
+#ifndef HC_CLI_BENCH_REPORT_H
+#define HC_CLI_BENCH_REPORT_H
+
+#include "cli.h"
+
+#include "bench/bake_bench.h"
+#include "bench/machine.h"
+
+typedef struct hc_cli_bench {
+    hc_cli          *cli;
+    hc_bench_machine machine;
+    hc_bench_row    *rows; /* their field names are those of the command line */
+    int              count, capacity;
+    cJSON           *list; /* member "rows" of cli->json                      */
+    char            *csv;  /* text so far                                     */
+    size_t           csv_size;
+    bool             failed; /* memory ran out: rows are missing              */
+} hc_cli_bench;
+
+/* Read the machine, print the head. Returns the exit code. */
+int hc_cli_bench_begin(hc_cli_bench *bench);
+/* hc_bench_options.row_done; `user` is the bench. */
+void hc_cli_bench_row(void *user, const hc_bench_row *row);
+/* Ratios between rows: against ring and quick-improved, threads, growth. */
+void hc_cli_bench_figures(hc_cli_bench *bench);
+void hc_cli_bench_end(hc_cli_bench *bench);
+
+#endif

@@ -1,0 +1,156 @@
+/* heightcast bench: the measurements of bench/ as a table, JSON and CSV. */
+#include "bench_report.h"
+#include "commands.h"
+#include "interrupt.h"
+#include "lists.h"
+#include "options.h"
+#include "output.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The command line's lists, taken apart. */
+typedef struct bench_lists {
+    hc_cli_list sides, fields, methods;
+    int         numbers[HC_CLI_LIST_MAX];
+} bench_lists;
+
+static const char *field_word(int index)
+{
+    return hc_synth_name(index);
+}
+
+/* Split the value of --NAME and check each item against `words` (NULL: none). */
+static int read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
+                     hc_cli_words *words)
+{
+    char known[512];
+    if (!hc_cli_split(list, text)) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: allowed are %s", name, text,
+                           hc_cli_option_named(name)->allowed);
+    }
+    for (int i = 0; words != NULL && i < list->count; i++) {
+        int found = 0;
+        while (words(found) != NULL && strcmp(words(found), list->items[i]) != 0) {
+            found++;
+        }
+        if (words(found) == NULL) {
+            const char *near = hc_cli_nearest(list->items[i], words);
+            hc_cli_join_words(known, sizeof known, words, ", ");
+            return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: allowed are %s%s%s%s", name,
+                               list->items[i], known, near == NULL ? "" : "; did you mean '",
+                               near == NULL ? "" : near, near == NULL ? "" : "'?");
+        }
+    }
+    return HC_CLI_DONE;
+}
+
+static int read_sides(hc_cli *cli, bench_lists *lists)
+{
+    const char *text = cli->settings.sizes == NULL ? "512,4096" : cli->settings.sizes;
+    const int   code = read_list(cli, &lists->sides, "sizes", text, NULL);
+    for (int i = 0; code == HC_CLI_DONE && i < lists->sides.count; i++) {
+        const char *item   = lists->sides.items[i];
+        const bool  digits = item[strspn(item, "0123456789")] == '\0' && strlen(item) < 8;
+        lists->numbers[i]  = digits ? atoi(item) : 0;
+        if (lists->numbers[i] < 1 || lists->numbers[i] > HC_SIDE_MAX) {
+            return hc_cli_fail(cli, HC_CLI_USAGE, "--sizes %s: allowed are %s", item,
+                               hc_cli_option_named("sizes")->allowed);
+        }
+    }
+    return code;
+}
+
+static int read_lists(hc_cli *cli, bench_lists *lists)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    int                    code     = read_sides(cli, lists);
+    if (code == HC_CLI_DONE) {
+        code = read_list(cli, &lists->fields, "field",
+                         settings->fields == NULL ? "fbm" : settings->fields, field_word);
+    }
+    if (code == HC_CLI_DONE && settings->methods != NULL) {
+        code = read_list(cli, &lists->methods, "methods", settings->methods, hc_bench_method);
+    }
+    return code;
+}
+
+static int check_arguments(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    if (settings->path_count == 1 && strcmp(settings->paths[0], "bake") != 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "nothing to measure is called '%s'; bake is",
+                           settings->paths[0]);
+    }
+    const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
+    int        code      = json_file ? hc_cli_check_output(cli, settings->report) : HC_CLI_DONE;
+    if (code == HC_CLI_DONE && settings->csv != NULL) {
+        code = hc_cli_check_output(cli, settings->csv);
+    }
+    return code;
+}
+
+static bool stop_asked(void)
+{
+    return hc_cli_caught_signal() != 0;
+}
+
+static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const hc_bench_options options  = { .fields       = lists->fields.items,
+                                        .field_count  = lists->fields.count,
+                                        .sides        = lists->numbers,
+                                        .side_count   = lists->sides.count,
+                                        .methods      = lists->methods.items,
+                                        .method_count = lists->methods.count,
+                                        .seed         = settings->seed,
+                                        .repeat       = settings->repeat,
+                                        .threads      = settings->threads,
+                                        .isa          = settings->map.cone.isa,
+                                        .progress     = hc_cli_progress(cli),
+                                        .stop         = stop_asked,
+                                        .row_done     = hc_cli_bench_row,
+                                        .user         = bench };
+    hc_cli_phase(cli, "bake");
+    const hc_result result = hc_bench_bake(&options, &cli->log);
+    hc_cli_phase(cli, NULL);
+    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+}
+
+static int write_reports(hc_cli *cli, const hc_cli_bench *bench)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    int                    code     = HC_CLI_DONE;
+    if (settings->csv != NULL) {
+        code = hc_cli_write_text(cli, settings->csv, bench->csv);
+    }
+    if (code == HC_CLI_DONE && settings->report != NULL && !settings->json) {
+        char *text = cJSON_Print(cli->json);
+        code =
+            text == NULL ? hc_cli_fail_memory(cli) : hc_cli_write_text(cli, settings->report, text);
+        cJSON_free(text);
+    }
+    return code;
+}
+
+int hc_cli_run_bench(hc_cli *cli)
+{
+    bench_lists  lists = { 0 };
+    hc_cli_bench bench = { .cli = cli };
+    cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
+    int code           = check_arguments(cli);
+    code               = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
+    if (code != HC_CLI_DONE) {
+        return code;
+    }
+    code = hc_cli_bench_begin(&bench);
+    code = code == HC_CLI_DONE ? measure(cli, &lists, &bench) : code;
+    if (code == HC_CLI_DONE) {
+        hc_cli_bench_figures(&bench);
+        code = write_reports(cli, &bench);
+    }
+    hc_cli_bench_end(&bench);
+    return code;
+}

@@ -1,0 +1,20 @@
+/* False-colour pictures with a scale and numbers on it. */
+#ifndef HC_CLI_PICTURE_H
+#define HC_CLI_PICTURE_H
+
+#include "cli.h"
+
+/* One channel. Values >= 0; INFINITY gets a colour of its own. */
+typedef struct hc_cli_panel {
+    const float *values; /* width * height, row-major          */
+    const char  *title;  /* letters, digits and . + - _        */
+    double       top;    /* value of the scale's bright end    */
+} hc_cli_panel;
+
+/* Draw the panels side by side, each with title, scale and labels, and write them as PNG. Small
+ * fields are enlarged; of large ones each pixel shows the largest value under it, so that single
+ * texels stay visible. */
+hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
+                             int width, int height);
+
+#endif

@@ -1,0 +1,151 @@
+/* Finds the command, reads its options, runs it. */
+#include "commands.h"
+#include "interrupt.h"
+#include "options.h"
+
+#include <stdio.h>
+#include <string.h>
+
+const hc_cli_command hc_cli_commands[] = {
+    { "bake", HC_CLI_BAKE, hc_cli_run_bake, "IN OUT", 2, 2,
+      "Bake a height map into a cone map or pyramid",
+      "IN is a height map (PNG, TIFF, EXR, PGM, PPM, PFM, NPY, raw samples; - is standard input), "
+      "found by its content. The ending of OUT decides its format: .png .tif .exr .npy .ktx2 .dds. "
+      "Heights are rounded to what OUT stores before the bake and ratios are rounded down, so that "
+      "what the cones promise holds for the file.",
+      false },
+    { "gen", HC_CLI_GEN, hc_cli_run_gen, "NAME OUT", 0, 2,
+      "Make one of the named synthetic height maps",
+      "OUT is a height map: .png .tif .exr .pgm .pfm .npy .raw. The same name, size and seed give "
+      "the "
+      "same bytes everywhere. 'heightcast gen --list' shows the names.",
+      false },
+    { "info", HC_CLI_INFO, hc_cli_run_info, "FILE", 1, 1, "Say what a height map or a baked map is",
+      NULL, true },
+    { "compare", HC_CLI_COMPARE, hc_cli_run_compare, "A B", 2, 2,
+      "Compare two height maps or two baked maps",
+      "Gives the largest and the mean difference and the peak signal-to-noise ratio of each "
+      "channel. "
+      "Both must have the same size, and maps the same kind and layout.",
+      true },
+    { "verify", HC_CLI_VERIFY, hc_cli_run_verify, "MAP", 1, 1,
+      "Check a cone map against brute force",
+      "Exit code 5 if any ratio is wider than the truth, or if the map's heights are not those of "
+      "FIELD. Give the options that FIELD was baked with (--invert, --range, ...); wrap and "
+      "registration are the map's.",
+      true },
+    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake]", 0, 1, "Measure the baker",
+      "Each measurement runs in a process of its own, so that its peak memory is known.", true },
+    { 0 },
+};
+
+static const char *command_word(int index)
+{
+    return hc_cli_commands[index].name;
+}
+
+static int fail_word(const char *what, const char *word)
+{
+    const char *nearest = hc_cli_nearest(word, command_word);
+    (void)fprintf(stderr, "heightcast: unknown %s '%s'; ", what, word);
+    if (nearest != NULL) {
+        (void)fprintf(stderr, "did you mean '%s'?\n", nearest);
+    } else {
+        (void)fputs("'heightcast --help' lists the commands\n", stderr);
+    }
+    return HC_CLI_USAGE;
+}
+
+static const hc_cli_command *command_named(const char *name)
+{
+    for (const hc_cli_command *command = hc_cli_commands; command->name != NULL; command++) {
+        if (strcmp(command->name, name) == 0) {
+            return command;
+        }
+    }
+    return NULL;
+}
+
+/* Help and version are data too: a full disk must not look like success. */
+static int end_of_output(void)
+{
+    if (fflush(stdout) != 0) {
+        perror("heightcast: cannot write to standard output");
+        return HC_CLI_INPUT_OUTPUT;
+    }
+    return HC_CLI_DONE;
+}
+
+static int show_version(void)
+{
+    (void)printf("heightcast %s\n", hc_version());
+    return end_of_output();
+}
+
+static int show_help(const char *name)
+{
+    const hc_cli_command *command = name == NULL ? NULL : command_named(name);
+    if (command != NULL) {
+        hc_cli_help_command(command);
+    } else if (name != NULL) {
+        return fail_word("command", name);
+    } else {
+        hc_cli_help();
+    }
+    return end_of_output();
+}
+
+static int run_checked(hc_cli *cli, const hc_cli_command *command)
+{
+    const int paths = cli->settings.path_count;
+    if (paths < command->paths_min) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "needs %s; got %d of %d", command->arguments, paths,
+                           command->paths_min);
+    }
+    if (paths > command->paths_max) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "unexpected argument '%s'; needs %s",
+                           cli->settings.paths[command->paths_max], command->arguments);
+    }
+    return command->run(cli);
+}
+
+static int run(const hc_cli_command *command, int argc, char **argv)
+{
+    hc_cli     cli = { .command = command->name, .on_stdout = command->on_stdout };
+    char       error[HC_LOG_TEXT_SIZE];
+    const bool parsed = hc_cli_parse(&cli.settings, command->bit, argc, argv, error, sizeof error);
+    if (parsed && cli.settings.help) {
+        return show_help(command->name);
+    }
+    if (parsed && cli.settings.version) {
+        return show_version();
+    }
+    hc_cli_begin(&cli);
+    const int code =
+        parsed ? run_checked(&cli, command) : hc_cli_fail(&cli, HC_CLI_USAGE, "%s", error);
+    return hc_cli_finish(&cli, code);
+}
+
+int hc_cli_main(int argc, char **argv)
+{
+    if (argc < 2) {
+        (void)fputs("heightcast: needs a command; 'heightcast --help' lists them\n", stderr);
+        return HC_CLI_USAGE;
+    }
+    const char *word = argv[1];
+    if (strcmp(word, "--version") == 0) {
+        return show_version();
+    }
+    if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
+        return show_help(NULL);
+    }
+    if (strcmp(word, "help") == 0) {
+        return show_help(argc > 2 ? argv[2] : NULL);
+    }
+    const hc_cli_command *command = command_named(word);
+    if (command == NULL) {
+        return fail_word(word[0] == '-' ? "option" : "command", word);
+    }
+    hc_cli_catch_signals();
+    return run(command, argc - 1, argv + 1);
+}
