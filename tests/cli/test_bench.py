@@ -1,0 +1,112 @@
+"""heightcast bench: what it reports; not how fast anything is."""
+
+import csv
+import json
+import signal
+import subprocess
+import time
+
+from program import INPUT_OUTPUT, PROGRAM, USAGE, Case, main
+
+SMALL = ["--sizes", "16,32", "--repeat", "2"]
+
+
+class Bench(Case):
+    def report(self, *options):
+        return json.loads(self.text("bench", "bake", *SMALL, *options, "--json"))
+
+    def test_all_rows(self):
+        report = self.report()
+        rows = report["rows"]
+        self.assertEqual({row["side"] for row in rows}, {16, 32})
+        methods = {row["method"] for row in rows}
+        for method in ["exact", "brute", "ring", "quick", "quick-improved", "quick-centre",
+                       "quick-naive-centre", "gems", "falling-edge", "pyramid", "bounds",
+                       "gradient", "cells"]:
+            self.assertIn(method, methods)
+        self.assertEqual({row["cones"] for row in rows if row["method"] == "exact"},
+                         {"l2", "l1", "quad", "aniso"})
+        for row in rows:
+            self.assertGreater(row["seconds"], 0)
+            self.assertLessEqual(row["fastest"], row["seconds"])
+            self.assertLessEqual(row["seconds"], row["slowest"])
+            self.assertEqual(row["runs"], 2)
+            self.assertAlmostEqual(row["ns_per_texel"], 1e9 * row["seconds"] / row["side"] ** 2)
+
+    def test_quality(self):
+        quality = {row["method"]: row for row in self.report()["rows"] if row.get("cones") == "l2"}
+        for same in ["exact", "brute", "ring"]:
+            self.assertEqual((quality[same]["mean_kept"], quality[same]["wider"]), (1, 0))
+        self.assertEqual(quality["quick"]["wider"], 0)
+        self.assertLess(quality["quick"]["mean_kept"], 1)
+        self.assertGreater(quality["falling-edge"]["wider"], 0)
+
+    def test_figures(self):
+        report = self.report("--methods", "exact,ring,quick-improved", "-j", 3)
+        small, large = report["figures"]
+        self.assertEqual((small["side"], large["side"]), (16, 32))
+        self.assertEqual((large["growth_from_side"], large["growth_texels"]), (16, 4))
+        time_of = {(r["method"], r["side"], r["threads"]): r["seconds"] for r in report["rows"]
+                   if r["cones"] == "l2"}
+        self.assertAlmostEqual(large["ring_over_exact"],
+                               time_of["ring", 32, 1] / time_of["exact", 32, 1])
+        self.assertAlmostEqual(large["quick_improved_over_exact"],
+                               time_of["quick-improved", 32, 1] / time_of["exact", 32, 1])
+        self.assertAlmostEqual(large["threads_speedup"],
+                               time_of["exact", 32, 1] / time_of["exact", 32, 3])
+        self.assertAlmostEqual(large["growth_seconds"],
+                               time_of["exact", 32, 1] / time_of["exact", 16, 1])
+
+    def test_machine(self):
+        report = self.report("--methods", "pyramid")
+        for key in ["cpu", "cores", "system", "compiler", "commit", "isa"]:
+            self.assertTrue(report["machine"][key], key)
+        self.assertGreater(report["seconds"]["bake"], 0)
+
+    def test_memory_is_measured(self):
+        rows = json.loads(self.text("bench", "--sizes", 1024, "--methods", "gradient,pyramid",
+                                    "--repeat", 1, "--json"))["rows"]
+        for row in rows:
+            # A field of 4 MiB; the gradient has 8, the pyramid 5.3. Neither takes work memory.
+            expected = {"gradient": 12, "pyramid": 9.33}[row["method"]] * 2**20
+            if row["peak_bytes"] > 0:
+                self.assertGreater(row["peak_bytes"], 0.95 * expected)
+                self.assertLess(row["peak_bytes"], 1.25 * expected)
+
+    def test_files(self):
+        table = self.text("bench", "bake", *SMALL, "--field", "fbm,spikes", "--methods", "exact",
+                          "--json", "report.json", "--csv", "report.csv")
+        report = json.loads(self.path("report.json").read_text())
+        with open(self.path("report.csv"), newline="") as file:
+            rows = list(csv.DictReader(file))
+        self.assertEqual(len(rows), len(report["rows"]))
+        self.assertEqual({row["field"] for row in rows}, {"fbm", "spikes"})
+        for row, same in zip(rows, report["rows"]):
+            self.assertAlmostEqual(float(row["seconds"]), same["seconds"])
+            self.assertEqual(row["commit"], report["machine"]["commit"])
+        self.assertRegex(table, r"(?m)^spikes +32 exact +quad ")
+        self.refused("bench", "bake", "--json", "report.json", code=INPUT_OUTPUT,
+                     says="--overwrite")
+
+    def test_usage(self):
+        self.refused("bench", "trace", code=USAGE, says="'trace'")
+        self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])
+        self.refused("bench", "--sizes", "16,", code=USAGE, says="--sizes 16,")
+        self.refused("bench", "--sizes", "9999999", code=USAGE, says="1048576")
+        self.refused("bench", "--field", "fbn", code=USAGE, says="did you mean 'fbm'?")
+        self.refused("bench", "--methods", "exact,rign", code=USAGE, says="did you mean 'ring'?")
+
+    def test_ctrl_c(self):
+        running = subprocess.Popen(
+            [PROGRAM, "bench", "bake", "--sizes", "1024", "--methods", "brute", "--csv", "a.csv"],
+            cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        time.sleep(0.7)
+        self.assertIsNone(running.poll())
+        running.send_signal(signal.SIGINT)
+        _, stderr = running.communicate(timeout=30)
+        self.assertEqual(running.returncode, 130, stderr)
+        self.assertEqual(self.files(), [])
+
+
+if __name__ == "__main__":
+    main()
