@@ -20,10 +20,13 @@ case $set_name in
 build) wanted=("${build[@]}") ;;
 demo) wanted=("${build[@]}" "${chafa[@]}") ;;
 test)
-    # clang, g++: the other compilers. libgdal-dev: its readers are tested too. The last four read our
+    # clang, g++: the other compilers. libgdal-dev: its readers are tested too. The rest reads our
     # files independently.
     wanted=("${build[@]}" "${chafa[@]}" libcmocka-dev binutils python3 clang g++ libgdal-dev
-        imagemagick openexr libtiff-tools nodejs)
+        gdal-bin imagemagick openexr libtiff-tools)
+    if ! command -v npm >/dev/null; then # others package node.js as one piece
+        wanted+=(nodejs npm)
+    fi
     ;;
 fuzz) wanted=("${build[@]}" libcmocka-dev clang) ;;
 lint) wanted=("${build[@]}" python3 clang-format clang-tidy) ;;
