@@ -155,11 +155,7 @@ static int check_arguments(hc_cli *cli)
     if (settings->diff == NULL) {
         return HC_CLI_DONE;
     }
-    const hc_container *container = hc_container_of(settings->diff);
-    if (container == NULL || strcmp(container->name, "PNG") != 0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--diff %s: the ending must be .png", settings->diff);
-    }
-    return hc_cli_check_output(cli, settings->diff);
+    return hc_cli_check_picture(cli, "diff", settings->diff);
 }
 
 int hc_cli_run_compare(hc_cli *cli)

@@ -21,6 +21,7 @@ extern const hc_cli_command hc_cli_commands[];
 int hc_cli_run_bake(hc_cli *cli);
 int hc_cli_run_gen(hc_cli *cli);
 int hc_cli_run_info(hc_cli *cli);
+int hc_cli_run_show(hc_cli *cli);
 int hc_cli_run_compare(hc_cli *cli);
 int hc_cli_run_verify(hc_cli *cli);
 int hc_cli_run_bench(hc_cli *cli);

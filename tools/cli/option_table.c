@@ -83,8 +83,8 @@ static const char *compat_words(int index)
 }
 
 #define TARGET(member) offsetof(hc_cli_settings, member)
-#define LOADS (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY)
-#define WRITES (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH)
+#define LOADS (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW)
+#define WRITES (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW)
 
 const hc_cli_option hc_cli_options[] = {
     /* ---- what is read ---- */
@@ -271,6 +271,14 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "the name of a .png file",
       .help = "Write a false-colour picture of the differences, one panel per channel, each with "
               "its scale." },
+    { .name     = "out",
+      .commands = HC_CLI_SHOW,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_text,
+      .target   = TARGET(out),
+      .metavar  = "PNG",
+      .allowed  = "the name of a .png file",
+      .help     = "Write the picture, each panel with its scale, instead of drawing it here." },
     { .name     = "heights",
       .commands = HC_CLI_VERIFY,
       .section  = HC_CLI_SECTION_WORK,

@@ -14,7 +14,8 @@ enum {
     HC_CLI_COMPARE = 8,
     HC_CLI_VERIFY  = 16,
     HC_CLI_BENCH   = 32,
-    HC_CLI_ALL     = 63
+    HC_CLI_SHOW    = 64,
+    HC_CLI_ALL     = 127
 };
 
 typedef enum hc_cli_section {

@@ -92,3 +92,12 @@ int hc_cli_write_text(hc_cli *cli, const char *path, const char *text)
     }
     return HC_CLI_DONE;
 }
+
+int hc_cli_check_picture(hc_cli *cli, const char *option, const char *path)
+{
+    const hc_container *container = hc_container_of(path);
+    if (container == NULL || strcmp(container->name, "PNG") != 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: the ending must be .png", option, path);
+    }
+    return hc_cli_check_output(cli, path);
+}

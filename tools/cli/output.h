@@ -13,6 +13,8 @@ void hc_cli_list_endings(char *text, size_t size, hc_cli_content content, int bi
 
 /* HC_CLI_DONE if a file could be put at `path`; else says why not and returns the exit code. */
 int hc_cli_check_output(hc_cli *cli, const char *path);
+/* The same for the picture that --`option` names: a .png. */
+int hc_cli_check_picture(hc_cli *cli, const char *option, const char *path);
 
 /* Bytes of the file at `path`; 0 if it is not there. */
 double hc_cli_file_bytes(const char *path);

@@ -1,6 +1,7 @@
 #include "picture.h"
 
 #include "font.h"
+#include "terminal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -15,7 +16,10 @@ enum {
     BAR_HEIGHT   = 12,
     GLYPH_SCALE  = 2,
     TEXT_ADVANCE = (HC_CLI_GLYPH_WIDTH + 1) * GLYPH_SCALE,
-    TEXT_HEIGHT  = HC_CLI_GLYPH_HEIGHT * GLYPH_SCALE
+    TEXT_HEIGHT  = HC_CLI_GLYPH_HEIGHT * GLYPH_SCALE,
+    ABOVE        = TEXT_HEIGHT + MARGIN,                  /* the title          */
+    BELOW        = MARGIN + BAR_HEIGHT + 4 + TEXT_HEIGHT, /* the scale          */
+    ACROSS       = 2                                      /* panels side by side */
 };
 
 typedef struct colour {
@@ -144,12 +148,11 @@ static void draw_scale(canvas *c, const hc_cli_panel *panel, int left, int top, 
     }
 }
 
-static void draw_panel(canvas *c, const hc_cli_panel *panel, const fit *f, int left)
+static void draw_panel(canvas *c, const hc_cli_panel *panel, const fit *f, int left, int top)
 {
-    const int picture_top = MARGIN + TEXT_HEIGHT + MARGIN;
-    draw_text(c, left, MARGIN, panel->title);
-    draw_values(c, panel, f, left, picture_top);
-    draw_scale(c, panel, left, picture_top + f->drawn_height + MARGIN, f->panel_width);
+    draw_text(c, left, top, panel->title);
+    draw_values(c, panel, f, left, top + ABOVE);
+    draw_scale(c, panel, left, top + ABOVE + f->drawn_height + MARGIN, f->panel_width);
 }
 
 static void clear(canvas *c)
@@ -161,23 +164,54 @@ static void clear(canvas *c)
     }
 }
 
-hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
-                             int width, int height)
+/* Panels row by row, two side by side; without `labels` neither titles nor scales. */
+static hc_result draw_panels(canvas *c, hc_cli *cli, const hc_cli_panel *panels, int count,
+                             int width, int height, bool labels)
 {
-    const fit f = fit_field(width, height);
-    canvas    c = { .width  = MARGIN + count * (f.panel_width + MARGIN),
-                    .height = f.drawn_height + 4 * MARGIN + 2 * TEXT_HEIGHT + BAR_HEIGHT + 4 };
-    c.rgb       = malloc((size_t)c.width * (size_t)c.height * 3);
-    if (c.rgb == NULL) {
+    const fit f       = fit_field(width, height);
+    const int columns = count < ACROSS ? count : ACROSS;
+    const int rows    = (count + ACROSS - 1) / ACROSS;
+    const int step_x  = (labels ? f.panel_width : f.drawn_width) + MARGIN;
+    const int step_y  = f.drawn_height + MARGIN + (labels ? ABOVE + BELOW : 0);
+    *c     = (canvas){ .width = MARGIN + columns * step_x, .height = MARGIN + rows * step_y };
+    c->rgb = malloc((size_t)c->width * (size_t)c->height * 3);
+    if (c->rgb == NULL) {
         (void)snprintf(cli->log.text, sizeof cli->log.text, "out of memory");
         return HC_ERROR_MEMORY;
     }
-    clear(&c);
+    clear(c);
     for (int i = 0; i < count; i++) {
-        draw_panel(&c, &panels[i], &f, MARGIN + i * (f.panel_width + MARGIN));
+        const int left = MARGIN + i % ACROSS * step_x;
+        const int top  = MARGIN + i / ACROSS * step_y;
+        if (labels) {
+            draw_panel(c, &panels[i], &f, left, top);
+        } else {
+            draw_values(c, &panels[i], &f, left, top);
+        }
     }
-    const hc_result result =
-        hc_save_picture(c.rgb, c.width, c.height, path, &cli->settings.save, &cli->log);
-    free(c.rgb);
+    return HC_OK;
+}
+
+hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
+                             int width, int height)
+{
+    canvas    c;
+    hc_result result = draw_panels(&c, cli, panels, count, width, height, true);
+    if (result == HC_OK) {
+        result = hc_save_picture(c.rgb, c.width, c.height, path, &cli->settings.save, &cli->log);
+        free(c.rgb);
+    }
+    return result;
+}
+
+hc_result hc_cli_print_panels(hc_cli *cli, const hc_cli_panel *panels, int count, int width,
+                              int height)
+{
+    canvas          c;
+    const hc_result result = draw_panels(&c, cli, panels, count, width, height, false);
+    if (result == HC_OK) {
+        hc_cli_terminal_draw(c.rgb, c.width, c.height);
+        free(c.rgb);
+    }
     return result;
 }

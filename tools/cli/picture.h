@@ -11,10 +11,14 @@ typedef struct hc_cli_panel {
     double       top;    /* value of the scale's bright end    */
 } hc_cli_panel;
 
-/* Draw the panels side by side, each with title, scale and labels, and write them as PNG. Small
+/* Draw the panels, two side by side, each with title, scale and labels, and write them as PNG. Small
  * fields are enlarged; of large ones each pixel shows the largest value under it, so that single
  * texels stay visible. */
 hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
                              int width, int height);
+
+/* The same in the terminal, without labels. Only where hc_cli_terminal_draws. */
+hc_result hc_cli_print_panels(hc_cli *cli, const hc_cli_panel *panels, int count, int width,
+                              int height);
 
 #endif

@@ -22,6 +22,11 @@ const hc_cli_command hc_cli_commands[] = {
       false },
     { "info", HC_CLI_INFO, hc_cli_run_info, "FILE", 1, 1, "Say what a height map or a baked map is",
       NULL, true },
+    { "show", HC_CLI_SHOW, hc_cli_run_show, "FILE", 1, 1,
+      "Draw a height map or a baked map, in the terminal or into a file",
+      "One panel for each channel, dark is low. The scale of ratios ends where 95 % of them lie "
+      "below; unlimited ones are cyan.",
+      false },
     { "compare", HC_CLI_COMPARE, hc_cli_run_compare, "A B", 2, 2,
       "Compare two height maps or two baked maps",
       "Gives the largest and the mean difference and the peak signal-to-noise ratio of each "

@@ -27,7 +27,7 @@ typedef struct hc_cli_settings {
     uint64_t        seed;
     bool            list, all;
     int             texels;
-    const char     *diff, *heights;
+    const char     *diff, *heights, *out;
     const char     *sizes, *fields, *methods; /* bench: comma-separated */
     int             repeat;
     const char     *report; /* bench: file for --json, "-" is standard output */
