@@ -43,7 +43,10 @@ hc_result hc_output_open(hc_output *output, const char *path, bool overwrite, hc
     if (allowed != HC_OK) {
         return allowed;
     }
-    const size_t room = strlen(path) + 48;
+    /* a name of its own, since one made of the wanted name could be too long where that is not */
+    const char  *slash  = strrchr(path, '/');
+    const size_t folder = slash != NULL ? (size_t)(slash - path) + 1 : 0;
+    const size_t room   = folder + 64;
     *output =
         (hc_output){ .path = path, .temporary = malloc(room), .fd = -1, .overwrite = overwrite };
     if (output->temporary == NULL) {
@@ -51,7 +54,8 @@ hc_result hc_output_open(hc_output *output, const char *path, bool overwrite, hc
     }
     errno = EEXIST;
     for (int i = 0; i < NAME_TRIES && output->fd < 0 && errno == EEXIST; i++) {
-        (void)snprintf(output->temporary, room, "%s.%ld.%d.tmp", path, (long)getpid(), i);
+        (void)snprintf(output->temporary, room, "%.*sheightcast-%ld-%d.tmp", (int)folder, path,
+                       (long)getpid(), i);
         output->fd = open(output->temporary, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     }
     if (output->fd < 0) {

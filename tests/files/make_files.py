@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Write the sample files beside this script with other people's tools: ImageMagick's convert, GDAL's
-gdal_translate, OpenEXR's exrmaketiled; EXR, NPY and tagged PNG by hand. Only needed to add one: the files are
-kept in the repository.
+"""Write the sample files beside this script with other people's tools: ImageMagick's convert,
+GDAL's gdal_translate, OpenEXR's exrmaketiled; EXR, NPY and tagged PNG by hand. Only needed to add
+one: the files are kept in the repository.
 
 Samples, with x to the right and y downwards:
   37 x 21  wide(x, y) = 1000 + 37 * x + 411 * y      byte(x, y) = 3 * x + 5 * y
@@ -94,7 +94,8 @@ def pngs(folder):
     grey.write_bytes(b"P5 5 3 65535\n" + struct.pack(">15H", *grid(wide, SMALL)))
     low = folder / "low.pgm"
     colour = folder / "colour.ppm"
-    colour.write_bytes(b"P6 5 3 255\n" + bytes(v + k for v in grid(byte, SMALL) for k in (0, 40, 80)))
+    colours = bytes(v + k for v in grid(byte, SMALL) for k in (0, 40, 80))
+    colour.write_bytes(b"P6 5 3 255\n" + colours)
     plain = ["convert", "-define", "png:exclude-chunks=all"]
 
     def png(source, name, *options):
@@ -108,7 +109,8 @@ def pngs(folder):
         n = 2**bits - 1
         low.write_bytes(f"P5 5 3 {n}\n".encode() + bytes((x + y) % (n + 1) for y in range(h)
                                                          for x in range(w)))
-        png(low, f"grey{bits}.png", "-define", f"png:bit-depth={bits}", "-define", "png:color-type=0")
+        png(low, f"grey{bits}.png", "-define", f"png:bit-depth={bits}", "-define",
+            "png:color-type=0")
     profile = b"any name\0\0" + zlib.compress(bytes(100) + "sRGB built-in".encode("utf-16-be"))
     for name, tag in ("srgb.png", (b"sRGB", b"\0")), ("icc_srgb.png", (b"iCCP", profile)):
         rows = b"".join(b"\0" + bytes(byte(x, y) for x in range(w)) for y in range(h))
@@ -129,7 +131,8 @@ def half(value):
 
 
 def exr(name, channels, lines, window=(0, 0), order=0):
-    """Uncompressed scan lines; channels: [(name, type)], type 0 uint, 1 half, 2 float; lines[y][c]."""
+    """Uncompressed scan lines; channels: [(name, type)], type 0 uint, 1 half, 2 float;
+    lines[y][channel] are samples."""
     def attribute(key, kind, data):
         return key + b"\0" + kind + b"\0" + struct.pack("<i", len(data)) + data
 
@@ -149,7 +152,8 @@ def exr(name, channels, lines, window=(0, 0), order=0):
     pack = {0: lambda v: struct.pack("<I", v), 1: half, 2: lambda v: struct.pack("<f", v)}
     chunks = []
     for y, line in enumerate(lines):
-        data = b"".join(b"".join(pack[kind](v) for v in row) for (_, kind), row in zip(channels, line))
+        data = b"".join(b"".join(pack[kind](v) for v in row)
+                        for (_, kind), row in zip(channels, line))
         chunks.append(struct.pack("<ii", y0 + y, len(data)) + data)
     at = len(header) + 8 * height
     stored = chunks if order == 0 else chunks[::-1]
@@ -183,7 +187,8 @@ def exrs(folder):
     HERE = kept
     run("exrmaketiled", "-o", "-t", 16, 16, "-z", "zip", strips, HERE / "tiles.exr")
     for packing in "rle", "pxr24", "b44", "dwaa":
-        run("exrmaketiled", "-o", "-t", 32, 32, "-z", packing, strips, HERE / f"tiles_{packing}.exr")
+        run("exrmaketiled", "-o", "-t", 32, 32, "-z", packing, strips,
+            HERE / f"tiles_{packing}.exr")
     run("exrmaketiled", "-m", "-t", 16, 16, "-z", "piz", strips, HERE / "tiles_mips.exr")
 
 
@@ -211,7 +216,8 @@ def npys():
 def plain_texts():
     w, h = SMALL
     (HERE / "plain.pgm").write_text(
-        "P2 # a comment\n# and another\n5\n3 2000\n" + "\n".join(map(str, grid(wide, SMALL))) + "\n")
+        "P2 # a comment\n# and another\n5\n3 2000\n"
+        + "\n".join(map(str, grid(wide, SMALL))) + "\n")
     (HERE / "plain.ppm").write_text(
         "P3 5 3 255 " + " ".join(str(v + k) for v in grid(byte, SMALL) for k in (0, 40, 80)))
     (HERE / "maxval_1000.pgm").write_bytes(

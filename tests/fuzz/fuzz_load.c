@@ -1,5 +1,5 @@
-/* libFuzzer target of a file reader, or with HC_FUZZ_ENDING empty of everything that takes any file.
- * Beyond not crashing: what is accepted must be a valid field or map, within the limits. */
+/* libFuzzer target of a file reader, or with HC_FUZZ_ENDING empty of everything that takes any
+ * file. Beyond not crashing: what is accepted must be a valid field or map, within the limits. */
 #include "base/fail.h"
 #include "io/io_internal.h"
 

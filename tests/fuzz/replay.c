@@ -1,4 +1,5 @@
-/* Run a fuzz target on each file of the folders that are named: `make test` keeps what fuzzing found. */
+/* Run a fuzz target on each file of the folders that are named: `make test` keeps what fuzzing
+ * found. */
 #include <dirent.h>
 #include <stdint.h>
 #include <stdio.h>

@@ -32,7 +32,8 @@ function check(folder, name) {
   assert.match(textOf(container.keyValue.KTXwriter), /^heightcast /);
   assert.equal(container.vkFormat, formats[`${channels},${bits}`]);
   assert.equal(container.typeSize, bits / 8);
-  assert.deepEqual([container.pixelWidth, container.pixelHeight, container.pixelDepth], [37, 21, 0]);
+  const { pixelWidth, pixelHeight, pixelDepth } = container;
+  assert.deepEqual([pixelWidth, pixelHeight, pixelDepth], [37, 21, 0]);
   assert.equal(container.layerCount, 0);
   assert.equal(container.faceCount, 1);
   assert.equal(container.supercompressionScheme, 0);

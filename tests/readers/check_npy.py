@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Read NAME.npy as NumPy does (with NumPy itself where it is installed) and compare with NAME.samples."""
+"""Read NAME.npy as NumPy does (with NumPy itself where it is installed) and compare with
+NAME.samples."""
 
 import ast
 import pathlib
@@ -23,7 +24,8 @@ def check(name):
     assert (10 + length) % 64 == 0 and text.endswith("\n"), "alignment"
     assert "# heightcast=1 content=" in text, "metadata"
     header = ast.literal_eval(text)
-    assert set(header) == {"descr", "fortran_order", "shape"} and not header["fortran_order"], header
+    assert set(header) == {"descr", "fortran_order", "shape"}, header
+    assert not header["fortran_order"], header
     assert header["shape"][:2] == (21, 37), header
     channels = header["shape"][2] if len(header["shape"]) == 3 else 1
     assert len(samples) == 21 * 37 * channels * SIZES[header["descr"]], header

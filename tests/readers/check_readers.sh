@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Do other people's programs find in our files what we put there? Those that are not installed are left
-# out by name; if all are, the test counts as skipped (77).
+# Do other people's programs find in our files what we put there? Those that are not installed are
+# left out by name; if all are, the test counts as skipped (77).
 # usage: check_readers.sh WRITE_SAMPLES FOLDER
 set -euo pipefail
 writer=$1
@@ -63,9 +63,10 @@ if have ImageMagick convert; then
         convert "$file" -quiet -depth 8 rgba:read.raw
         same read.raw dummer8.samples
     done
-    says "PNG 37x21 37x21+0+0 16-bit Gray" identify -quiet -format '%m %wx%h %wx%h+0+0 %z-bit %[colorspace]\n' \
+    says "PNG 37x21 16-bit Gray" identify -quiet -format '%m %wx%h %z-bit %[colorspace]\n' \
         field16.png
-    says "content=map kind=cone layout=dummer" identify -quiet -format '%[heightcast]\n' dummer8.png
+    says "content=map kind=cone layout=dummer" identify -quiet -format '%[heightcast]\n' \
+        dummer8.png
 fi
 
 if have tiffinfo tiffinfo; then
@@ -81,13 +82,15 @@ if have exrheader exrheader; then
     says "R, 32-bit floating-point" exrheader rg32.exr
     says "A, 32-bit floating-point" exrheader quad32.exr
     says "dataWindow (type box2i): (0 0) - (36 20)" exrheader quad32.exr
-    says 'heightcast (type string): "heightcast=1 content=map kind=cone layout=quad' exrheader quad32.exr
+    says 'heightcast (type string): "heightcast=1 content=map kind=cone layout=quad' \
+        exrheader quad32.exr
 fi
 # the C++ library reads our file and writes another; both must hold the same
 if have exrmaketiled exrmaketiled; then
     for name in rg32 quad32; do
         exrmaketiled -o -t 16 16 -z piz "$name.exr" "$name.tiled.exr" >/dev/null
-        "$writer" "$name.exr" "$name.tiled.exr" || fail "$name.exr: exrmaketiled read something else"
+        "$writer" "$name.exr" "$name.tiled.exr" ||
+            fail "$name.exr: exrmaketiled read something else"
     done
 fi
 
@@ -113,8 +116,8 @@ fi
 
 if have node node; then
     if [ -d "$here/../node/node_modules/ktx-parse" ]; then
-        node "$here/../node/check_ktx2.mjs" . dummer8 height8 rg8 rg16 rg32 quad32 pyramid8 pyramid16 \
-            pyramid32 || fail "KTX2 files are not as they should be"
+        node "$here/../node/check_ktx2.mjs" . dummer8 height8 rg8 rg16 rg32 quad32 \
+            pyramid8 pyramid16 pyramid32 || fail "KTX2 files are not as they should be"
     else
         unset 'ran[-1]'
         left_out+=("ktx-parse (npm ci in tests/node)")

@@ -1,7 +1,6 @@
 /* Write one of each kind of file, and beside it the samples that other readers should find in it:
- *   NAME.ENDING  as the library writes it
- *   NAME.samples the bytes: rows from the top, channels interleaved, little-endian, levels one after
- *                another
+ *   NAME.ENDING   as the library writes it
+ *   NAME.samples  rows from the top, channels interleaved, little-endian, all levels in turn
  * With two maps as arguments instead of a folder: compare what the library reads from them. */
 #include <heightcast/io.h>
 

@@ -219,6 +219,26 @@ static void test_given_up(void **state)
     assert_int_equal(count_files(), 0);
 }
 
+/* Names as long as a folder can hold; and without a folder. */
+static void test_long_and_bare_names(void **state)
+{
+    (void)state;
+    empty_folder();
+    char   name[256];
+    char   kept[PATH_MAX];
+    hc_log log = { .text = "" };
+    memset(name, 'n', sizeof name);
+    (void)snprintf(name + 251, 5, ".raw");
+    assert_ok(hc_save_field(&field, in_folder(name), NULL, &log), &log);
+    assert_non_null(getcwd(kept, sizeof kept));
+    assert_int_equal(chdir(fixture_folder), 0);
+    const hc_result result = hc_save_field(&field, "bare.raw", NULL, &log);
+    assert_int_equal(chdir(kept), 0);
+    assert_ok(result, &log);
+    assert_int_equal(access(in_folder("bare.raw"), F_OK), 0);
+    assert_int_equal(count_files(), 2);
+}
+
 static void test_log_is_optional(void **state)
 {
     (void)state;
@@ -242,6 +262,7 @@ int main(void)
         cmocka_unit_test(test_full_disk),
         cmocka_unit_test(test_race),
         cmocka_unit_test(test_given_up),
+        cmocka_unit_test(test_long_and_bare_names),
         cmocka_unit_test(test_log_is_optional),
     };
     return cmocka_run_group_tests(tests, fixture_begin, fixture_end);
