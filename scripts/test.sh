@@ -33,11 +33,6 @@ if setarch -R true 2>/dev/null; then
     fixed=(setarch -R)
 fi
 
-# An independent reader of KTX2. Without npm or its registry the check that needs it is left out.
-if [ ! -d tests/node/node_modules ] && command -v npm >/dev/null; then
-    npm ci --prefix tests/node --silent || true
-fi
-
 run release
 run sanitize
 run thread-sanitize "${fixed[@]}"
