@@ -279,8 +279,10 @@ INLINE unsigned promising_rows(kind k, const tile *t, int part, int x, int y, co
     const hc_v  rise_u = hc_v_mul(slope, per_u);
     const hc_v  rise_v = hc_v_mul(hc_v_mul(slope, per_v), hc_v_set(t->aspect));
     const hc_v  height = hc_v_sub(t->lifted[part], hc_v_set(range * 0x1p-19F));
-    const hc_v  middle = hc_v_about_muladd(slope, length, height);
-    unsigned    found  = 0;
+    /* The plane's terms cancel where the field is much finer along one axis: their rounding is relative
+     * to the middle's distance, and so is this margin. */
+    const hc_v middle = hc_v_about_muladd(slope, hc_v_mul(length, hc_v_set(LOWER)), height);
+    unsigned   found  = 0;
     for (int r = 0; r < 4; r++) {
         const hc_v row  = hc_v_about_muladd(rise_v, hc_v_set((float)r - 1.5F), middle);
         hc_v       most = hc_v_set(-range);

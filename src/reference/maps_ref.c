@@ -110,3 +110,10 @@ int hc_ref_ratio_code(double ratio, double max_ratio, int bits)
     }
     return code;
 }
+
+int hc_ref_slope_code(double slope, int bits)
+{
+    const int    bias  = largest_code(bits) / 2;
+    const double steps = fmin(ceil(fabs(slope) - 0.5), bias);
+    return bias + (int)(slope < 0.0 ? -steps : steps);
+}

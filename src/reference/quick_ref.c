@@ -27,7 +27,7 @@ static axis axis_of(const hc_field *field, bool vertical)
 
 static int period_of(const axis *a, int texel)
 {
-    return texel < 0 ? -1 : texel / a->size;
+    return texel < 0 ? -1 : texel >= a->size ? 1 : 0;
 }
 
 static int block_at(const axis *a, int level, int texel)
@@ -70,18 +70,22 @@ static bool counts(const search *s, int level, int x, int y)
     return !is_visited(s, level, x, y) || (s->variant == HC_REF_QUICK_NAIVE && !in_own_block);
 }
 
-/* Least distance to the texels of block (bx, by) that count; INFINITY if there are none. */
-static double nearest_of(const search *s, int level, int bx, int by)
+/* Least distances to the texels that count, of each of the 3 x 3 blocks; INFINITY where none do. */
+static void find_nearest(double nearest[3][3], const search *s, int level)
 {
-    double nearest = INFINITY;
+    for (int i = 0; i < 9; i++) {
+        nearest[i / 3][i % 3] = INFINITY;
+    }
     for (int y = s->v.first; y <= s->v.last; y++) {
-        for (int x = s->u.first; x <= s->u.last && block_at(&s->v, level, y) == by; x++) {
-            if (block_at(&s->u, level, x) == bx && counts(s, level, x, y)) {
-                nearest = fmin(nearest, hc_ref_length(s->field, s->cone, x - s->px, y - s->py));
+        const int down = block_at(&s->v, level, y) - block_at(&s->v, level, s->py);
+        for (int x = s->u.first; x <= s->u.last && abs(down) <= 1; x++) {
+            const int across = block_at(&s->u, level, x) - block_at(&s->u, level, s->px);
+            if (abs(across) <= 1 && counts(s, level, x, y)) {
+                const double distance = hc_ref_length(s->field, s->cone, x - s->px, y - s->py);
+                nearest[down + 1][across + 1] = fmin(nearest[down + 1][across + 1], distance);
             }
         }
     }
-    return nearest;
 }
 
 /* Middle of a block's texels along one axis, as seen from the apex at `p`: of all that lie on the
@@ -135,23 +139,40 @@ static int folded(const axis *a, int level, int block)
     return (block + count) % count;
 }
 
-static double block_ratio(const search *s, int level, int bx, int by)
+/* Highest sample of block (bx, by). */
+static double highest_of(const search *s, int level, int bx, int by)
 {
-    const hc_field *f       = s->field;
-    const double    apex    = (double)f->heights[s->py * f->width + s->px];
-    const double    highest = (double)hc_ref_block_extreme(f->heights, f->width, f->height, level,
-                                                           folded(&s->u, level, bx),
-                                                           folded(&s->v, level, by), HC_REF_MAXIMUM);
-    const bool      centre  = s->variant >= HC_REF_QUICK_CENTRE;
-    if (!(highest > apex)) {
-        return INFINITY;
-    }
-    return (centre ? centre_of(s, level, bx, by) : nearest_of(s, level, bx, by)) / (highest - apex);
+    const hc_field *f = s->field;
+    return (double)hc_ref_block_extreme(f->heights, f->width, f->height, level,
+                                        folded(&s->u, level, bx), folded(&s->v, level, by),
+                                        HC_REF_MAXIMUM);
 }
 
 static bool exists(const axis *a, int level, int block)
 {
     return block >= block_at(a, level, a->first) && block <= block_at(a, level, a->last);
+}
+
+static double level_ratio(const search *s, int level)
+{
+    const double apex  = (double)s->field->heights[s->py * s->field->width + s->px];
+    const int    own_x = block_at(&s->u, level, s->px);
+    const int    own_y = block_at(&s->v, level, s->py);
+    double       ratio = INFINITY;
+    double       nearest[3][3];
+    find_nearest(nearest, s, level);
+    for (int by = own_y - 1; by <= own_y + 1; by++) {
+        for (int bx = own_x - 1; bx <= own_x + 1; bx++) {
+            if (exists(&s->u, level, bx) && exists(&s->v, level, by)
+                && highest_of(s, level, bx, by) > apex) {
+                const double distance = s->variant >= HC_REF_QUICK_CENTRE
+                                            ? centre_of(s, level, bx, by)
+                                            : nearest[by - own_y + 1][bx - own_x + 1];
+                ratio = fmin(ratio, distance / (highest_of(s, level, bx, by) - apex));
+            }
+        }
+    }
+    return ratio;
 }
 
 double hc_ref_quick_ratio(const hc_field *field, const hc_ref_cone *cone, hc_ref_quick variant,
@@ -167,15 +188,7 @@ double hc_ref_quick_ratio(const hc_field *field, const hc_ref_cone *cone, hc_ref
     const int    longest = field->width > field->height ? field->width : field->height;
     double       ratio   = INFINITY;
     for (int level = 0; longest >> level > 0; level++) {
-        const int own_x = block_at(&s.u, level, x);
-        const int own_y = block_at(&s.v, level, y);
-        for (int by = own_y - 1; by <= own_y + 1; by++) {
-            for (int bx = own_x - 1; bx <= own_x + 1; bx++) {
-                if (exists(&s.u, level, bx) && exists(&s.v, level, by)) {
-                    ratio = fmin(ratio, block_ratio(&s, level, bx, by));
-                }
-            }
-        }
+        ratio = fmin(ratio, level_ratio(&s, level));
     }
     return ratio;
 }

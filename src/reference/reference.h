@@ -102,4 +102,13 @@ int    hc_ref_height_code(double height, int bits);
 int    hc_ref_ratio_code(double ratio, double max_ratio, int bits);
 double hc_ref_ratio_of_code(int code, double max_ratio, int bits);
 
+/* Code of a slope in height codes per sample: nearest, halves towards level, at most the bias away
+ * from the bias 127 or 32767. */
+int hc_ref_slope_code(double slope, int bits);
+
+/* One texel of the 2006 preprocessor's map, its faults included, from 8-bit heights. Sizes 2 and
+ * up. Section 16. */
+void hc_ref_dummer2006(int rgba[4], const uint8_t *heights, int width, int height, hc_wrap wrap,
+                       int x, int y);
+
 #endif

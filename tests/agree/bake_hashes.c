@@ -1,5 +1,6 @@
-/* Prints one hash for each thing that heightcast bakes: the same lines on every machine and in every
- * build, or promise 2 is broken. tests/golden/bake_hashes.txt holds the lines; CMake compares.
+/* Prints one hash for each thing that heightcast bakes: the same lines on every machine and in
+ * every build, or promise 2 is broken. tests/golden/bake_hashes.txt holds the lines; CMake
+ * compares.
  *
  * Each bake is repeated with one thread and three, and where there are vector kernels for every
  * instruction set of this build and machine: exit 1 if their bytes differ. */
