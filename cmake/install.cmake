@@ -3,9 +3,6 @@
 include(CMakePackageConfigHelpers)
 
 foreach(component core io)
-  if(NOT TARGET heightcast-${component})
-    continue()
-  endif()
   set_target_properties(heightcast-${component} PROPERTIES
     EXPORT_NAME ${component}
     VERSION ${PROJECT_VERSION}
