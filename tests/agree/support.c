@@ -197,7 +197,7 @@ const agree_shapes agree_small  = { 16,
                                       { 13, 11 },
                                       { 16, 15 },
                                       { 17, 16 } } };
-const agree_shapes agree_middle = { 12,
+const agree_shapes agree_middle = { 16,
                                     { { 1, 1 },
                                       { 257, 1 },
                                       { 1, 131 },
@@ -209,7 +209,11 @@ const agree_shapes agree_middle = { 12,
                                       { 97, 61 },
                                       { 16, 127 },
                                       { 79, 80 },
-                                      { 101, 103 } } };
+                                      { 101, 103 },
+                                      { 2000, 1 },
+                                      { 1, 1501 },
+                                      { 700, 3 },
+                                      { 2, 900 } } };
 
 static float *allocate(int width, int height)
 {

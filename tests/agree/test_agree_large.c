@@ -1,5 +1,7 @@
 /* 4096^2: every 509th row of the exact ratios against the judge (judge.h, which test_agree_big
- * holds against brute force), on every made field and the real elevations. */
+ * holds against brute force), on the made fields and the real elevations. Not on the funnel: every
+ * sample limits its tip alike, which takes the exact search half an hour at this size;
+ * test_agree_big has all its texels at 1024^2. */
 #include "judge.h"
 #include "support.h"
 
@@ -35,7 +37,9 @@ static void exact_is_right_at_4096(void **state)
 {
     (void)state;
     for (int i = 0; i < hc_synth_count(); i++) {
-        compare(hc_synth_name(i), HC_CONES_L2, HC_WRAP_NONE);
+        if (strcmp(hc_synth_name(i), "funnel") != 0) {
+            compare(hc_synth_name(i), HC_CONES_L2, HC_WRAP_NONE);
+        }
     }
     compare("dem", HC_CONES_L2, HC_WRAP_NONE);
 }
