@@ -20,7 +20,7 @@ doing() {
 }
 
 row() {
-    printf '%-27s %-9s %8s %8s %8s %8s %9s\n' "$@"
+    printf '%-28s %-9s %8s %8s %8s %8s %9s\n' "$@"
 }
 
 layout() {
@@ -101,7 +101,8 @@ fi
 cat <<END
 
 checked: texels compared with brute force; none was wider than it may be. mean kept: their ratios,
-relative to brute force, on average. quick-improved keeps less: that is what exact cones are for.
+relative to brute force, on average; 8 and 16 bits round down. What quick-improved keeps of them is
+why exact cones are worth having.
 Pictures, made in $((SECONDS - start)) s:
 END
 ls $out/*height_and_ratio.png $out/*quadrants.png $out/*quick_improved.png
