@@ -9,7 +9,8 @@ export FUZZ_SECONDS
 all:
 	@scripts/install_deps.sh --check build
 	@mkdir -p build
-	@cmake --preset release -DHC_BUILD_TESTS=OFF >build/configure.log 2>&1 || { cat build/configure.log; exit 1; }
+	@cmake --preset release -DHC_BUILD_TESTS=OFF >build/configure.log 2>&1 || \
+		{ cat build/configure.log; exit 1; }
 	@cmake --build --preset release
 
 # maps and pictures of real and made heights, into out/demo

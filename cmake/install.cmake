@@ -1,5 +1,5 @@
-# make install: libraries, headers, CMake package (components core and io), pkg-config files, program
-# and man page.
+# make install: libraries, headers, CMake package (components core and io), pkg-config files,
+# program and man page.
 include(CMakePackageConfigHelpers)
 
 foreach(component core io)

@@ -1,4 +1,5 @@
-/* Cones that are safe between the samples too, from an array in memory: no files, libheightcast only.
+/* Cones that are safe between the samples too, from an array in memory: no files, libheightcast
+ * only.
  *
  * Four diamond cones a texel, one for each quadrant of the ray's direction, then the least of each
  * cell's corners. A ray in cell (x, y) that goes to the right and down (+u, +v) with a gap of `gap`

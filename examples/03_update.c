@@ -1,5 +1,5 @@
-/* Terrain that changes: dig a crater and bring the cone map up to date at the cost of what the crater
- * affects, then see that it equals a full bake. */
+/* Terrain that changes: dig a crater and bring the cone map up to date at the cost of what the
+ * crater affects, then see that it equals a full bake. */
 #include <heightcast/heightcast.h>
 
 #include <stdio.h>

@@ -63,7 +63,7 @@ def check_use(root):
 
 
 def self_test():
-    header = 'HC_API int hc_a(void); HC_API const char *\nhc_b(int x); /* HC_API void hc_c(void); */'
+    header = "HC_API int hc_a(void); HC_API char *\nhc_b(int x); /* HC_API void hc_c(); */"
     source = 'int x = hc_a (); /* hc_b(1) */ const char *t = "hc_b(1)";'
     return declared([header]) != {"hc_a", "hc_b"} or used([source]) != {"hc_a"}
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Install the Debian or Ubuntu packages that are missing for: build, demo, test, fuzz, lint.
 # usage: install_deps.sh [--check] SET
-# Asks nothing of the network when all are there. --check installs nothing, and is content on systems
-# without dpkg.
+# Asks nothing of the network when all are there. --check installs nothing, and is content on
+# systems without dpkg.
 set -euo pipefail
 
 check=no
@@ -61,7 +61,7 @@ install() {
         return
     fi
     if [ $check = yes ]; then
-        echo "install_deps: missing packages: ${missing[*]} (make demo and make test install them)" >&2
+        echo "install_deps: missing: ${missing[*]} (make demo and make test install them)" >&2
         exit 1
     fi
     if [ "$(id -u)" -ne 0 ]; then
@@ -70,7 +70,7 @@ install() {
         elif [ -t 0 ] && command -v sudo >/dev/null; then
             as_root=(sudo)
         else
-            echo "install_deps: missing, and neither root nor sudo to install them: ${missing[*]}" >&2
+            echo "install_deps: missing, and no root or sudo to install them: ${missing[*]}" >&2
             exit 1
         fi
     fi

@@ -27,7 +27,8 @@ if [ ! -d tests/node/node_modules/ktx-parse ] && command -v npm >/dev/null; then
     npm ci --prefix tests/node --silent --no-fund --no-audit || true
 fi
 
-# Some kernels place memory where older thread sanitizers do not expect it; switch that off if we may.
+# Some kernels place memory where older thread sanitizers do not expect it; switch that off if we
+# may.
 fixed=()
 if setarch -R true 2>/dev/null; then
     fixed=(setarch -R)

@@ -1,13 +1,13 @@
-/* A max pyramid with sixteen children a node, laid out for searching: the children of a node lie side
- * by side in one cache line.
+/* A max pyramid with sixteen children a node, laid out for searching: the children of a node lie
+ * side by side in one cache line.
  *
- * Level 0 nodes are blocks of 4 x 4 samples and hold the samples themselves; a node of level k stands
- * for a square of 4^(k+1) samples and holds the maxima of its 4 x 4 children. Entry i of a node is
- * column i % 4, row i / 4. The root is the only node of the last level. Places outside the field hold
- * HC_TREE_OUTSIDE, lower than any height.
+ * Level 0 nodes are blocks of 4 x 4 samples and hold the samples themselves; a node of level k
+ * stands for a square of 4^(k+1) samples and holds the maxima of its 4 x 4 children. Entry i of a
+ * node is column i % 4, row i / 4. The root is the only node of the last level. Places outside the
+ * field hold HC_TREE_OUTSIDE, lower than any height.
  *
- * Maxima are kept minus `base`, so that comparing them keeps its precision when all heights of a field
- * lie close together. */
+ * Maxima are kept minus `base`, so that comparing them keeps its precision when all heights of a
+ * field lie close together. */
 #ifndef HC_BAKE_BLOCK_TREE_H
 #define HC_BAKE_BLOCK_TREE_H
 
@@ -41,8 +41,8 @@ hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, in
                         int threads, hc_log *log);
 void      hc_tree_free(hc_block_tree *tree);
 
-/* Take over changed heights of a rectangle. False if they leave base .. base + range: build anew then;
- * the samples of level 0 are up to date in both cases. */
+/* Take over changed heights of a rectangle. False if they leave base .. base + range: build anew
+ * then; the samples of level 0 are up to date in both cases. */
 bool hc_tree_update(hc_block_tree *tree, const float *heights, hc_rect changed);
 
 #endif

@@ -1,5 +1,5 @@
-/* All pairs: the judge of the other methods. Rows of samples against rows of samples; the weights of a
- * pair of rows depend on the column distance alone and are computed once. */
+/* All pairs: the judge of the other methods. Rows of samples against rows of samples; the weights
+ * of a pair of rows depend on the column distance alone and are computed once. */
 #include "brute.h"
 
 #include "base/fail.h"
@@ -55,8 +55,8 @@ static void set_passes(brute *b)
     }
 }
 
-/* Least distance from p to any image of q, `d` = q - p samples away along an axis of `count` samples,
- * on the side that `sign` asks for; -1 if there is none. */
+/* Least distance from p to any image of q, `d` = q - p samples away along an axis of `count`
+ * samples, on the side that `sign` asks for; -1 if there is none. */
 static int nearest(int d, int count, bool wrap, int sign)
 {
     if (sign == 0) {

@@ -29,7 +29,8 @@ static inline float hc_weight_l1(int i, int j, float step_u, float step_v)
     return 1.0F / (x + y);
 }
 
-/* From the largest steepness (rise * weight) to the stored ratio; 0 means that nothing is higher. */
+/* From the largest steepness (rise * weight) to the stored ratio; 0 means that nothing is
+ * higher. */
 static inline float hc_ratio(float steepness)
 {
     const float ratio = 1.0F / steepness;

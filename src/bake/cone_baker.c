@@ -1,5 +1,5 @@
-/* A cone baker that stays: it remembers, for squares of samples, how high a change must be to matter to
- * them, and searches only tiles that a change may matter to. */
+/* A cone baker that stays: it remembers, for squares of samples, how high a change must be to
+ * matter to them, and searches only tiles that a change may matter to. */
 #include "base/fail.h"
 #include "base/parallel.h"
 #include "reach.h"

@@ -1,4 +1,5 @@
-/* The exact search as bakers use it: a plan that holds the tree and the tables, and tiles to search. */
+/* The exact search as bakers use it: a plan that holds the tree and the tables, and tiles to
+ * search. */
 #ifndef HC_BAKE_EXACT_H
 #define HC_BAKE_EXACT_H
 

@@ -1,11 +1,11 @@
-/* The exact search: for each sample of a tile, the largest rise * weight over all samples of the field.
- * Included by exact_scalar.c, exact_avx2.c and exact_avx512.c, which define HC_EXACT_TILE.
+/* The exact search: for each sample of a tile, the largest rise * weight over all samples of the
+ * field. Included by exact_scalar.c, exact_avx2.c and exact_avx512.c, which define HC_EXACT_TILE.
  *
- * Two numbers belong to each sample p while it is searched: S(p), the largest canonical steepness found
- * so far, and a threshold T(p) that is at most the true maximum. A node may be left out only if no
- * sample below it can beat T. Everything that decides about leaving out carries a margin; everything
- * that reaches S is the canonical formula. So the result does not depend on the order of the search, on
- * first guesses or on the instruction set. (docs/algorithms.md, "Exact search".) */
+ * Two numbers belong to each sample p while it is searched: S(p), the largest canonical steepness
+ * found so far, and a threshold T(p) that is at most the true maximum. A node may be left out only
+ * if no sample below it can beat T. Everything that decides about leaving out carries a margin;
+ * everything that reaches S is the canonical formula. So the result does not depend on the order of
+ * the search, on first guesses or on the instruction set. (docs/algorithms.md, "Exact search".) */
 #include "base/simd.h"
 #include "canonical.h"
 #include "exact_search.h"
@@ -24,7 +24,8 @@ static const int32_t LANE_INDEX[16]   = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 
 static const int32_t COLUMN_INDEX[16] = { 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3 };
 static const int32_t ROW_INDEX[16]    = { 0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3 };
 
-/* Ends of the pieces [columns]. The last one is open: it ends farther away than any field is large. */
+/* Ends of the pieces [columns]. The last one is open: it ends farther away than any field is
+ * large. */
 static const float PIECE_ENDS[17] = { 0x0p0F,  0x1p0F,  0x1p1F,  0x1p2F,  0x1p3F, 0x1p4F,
                                       0x1p5F,  0x1p6F,  0x1p7F,  0x1p8F,  0x1p9F, 0x1p10F,
                                       0x1p11F, 0x1p12F, 0x1p13F, 0x1p14F, 0x1p40F };
@@ -68,9 +69,9 @@ INLINE hc_v measure(kind k, hc_v across, hc_v down)
                      : hc_v_about_muladd(across, across, hc_v_mul(down, down));
 }
 
-/* The least of height(p) + T(p) * distance is a concave function of the distance: between two ends it
- * lies above its chord. So one multiply-add bounds many samples at once, and far more tightly than the
- * lowest height with the least T would. */
+/* The least of height(p) + T(p) * distance is a concave function of the distance: between two ends
+ * it lies above its chord. So one multiply-add bounds many samples at once, and far more tightly
+ * than the lowest height with the least T would. */
 INLINE envelope draw_envelope(const tile *t, int first_part, int parts)
 {
     const hc_exact_pass *pass     = t->pass;
@@ -99,14 +100,14 @@ INLINE envelope draw_envelope(const tile *t, int first_part, int parts)
     return drawn;
 }
 
-/* Which of sixteen squares, `side` samples large, may hold something for the `extent` x `extent` samples
- * below the envelope. across, down: from their first sample to the squares' first ones; tops: the
- * squares' highest samples, minus base. */
+/* Which of sixteen squares, `side` samples large, may hold something for the `extent` x `extent`
+ * samples below the envelope. across, down: from their first sample to the squares' first ones;
+ * tops: the squares' highest samples, minus base. */
 INLINE unsigned promising(kind k, const tile *t, const envelope *hull, hc_v across, hc_v down,
                           hc_v tops, int extent, int side)
 {
-    /* gaps: from the samples' last to the squares' first, and from the squares' last to the samples'
-     * first; one of them is negative */
+    /* gaps: from the samples' last to the squares' first, and from the squares' last to the
+     * samples' first; one of them is negative */
     const hc_v zero   = hc_v_set(0.0F);
     const hc_v last   = hc_v_set((float)(extent - 1));
     const hc_v reach  = hc_v_set((float)(1 - side));
@@ -130,8 +131,8 @@ INLINE unsigned promising(kind k, const tile *t, const envelope *hull, hc_v acro
 
 /* ---- samples against samples ---- */
 
-/* A near block against one part: no tests, the table holds the canonical weights. Rows keep maxima of
- * their own, since one chain of sixteen maxima would take longer than all the rest.
+/* A near block against one part: no tests, the table holds the canonical weights. Rows keep maxima
+ * of their own, since one chain of sixteen maxima would take longer than all the rest.
  * The order of hc_v_max matters: rise * 0 may be -0, which must not replace S. */
 INLINE hc_v take_near(hc_v S, hc_v height, const hc_near_table *table, const float *samples, int dx,
                       int dy)
@@ -174,7 +175,8 @@ INLINE hc_v canonical_weight(kind k, const hc_exact_pass *pass, hc_v across, hc_
     return hc_v_div(hc_v_set(1.0F), distance);
 }
 
-/* Which lanes may gain from a rise at these offsets: where it is above slope (T per column) * distance. */
+/* Which lanes may gain from a rise at these offsets: where it is above slope (T per column) *
+ * distance. */
 INLINE unsigned may_gain(kind k, const tile *t, hc_v slope, hc_v rise, hc_v across, hc_v down)
 {
     const hc_v size = measure(k, across, hc_v_mul(down, hc_v_set(t->aspect)));
@@ -262,9 +264,9 @@ INLINE hc_v block_gap(hc_v from, int first)
 }
 
 /* Which rows of a distant block hold samples that the part may gain from.
- * T * distance is convex, so it lies above its tangent plane at the block's middle. With the plane, a
- * pair costs a multiply-add, a subtraction and a maximum. The middle lies half-way between samples: no
- * offset to it is 0, and a diamond's gradient is a sign. */
+ * T * distance is convex, so it lies above its tangent plane at the block's middle. With the plane,
+ * a pair costs a multiply-add, a subtraction and a maximum. The middle lies half-way between
+ * samples: no offset to it is 0, and a diamond's gradient is a sign. */
 INLINE unsigned promising_rows(kind k, const tile *t, int part, int x, int y, const float *samples)
 {
     const float range  = t->pass->tree->range;
@@ -279,8 +281,8 @@ INLINE unsigned promising_rows(kind k, const tile *t, int part, int x, int y, co
     const hc_v  rise_u = hc_v_mul(slope, per_u);
     const hc_v  rise_v = hc_v_mul(hc_v_mul(slope, per_v), hc_v_set(t->aspect));
     const hc_v  height = hc_v_sub(t->lifted[part], hc_v_set(range * 0x1p-19F));
-    /* The plane's terms cancel where the field is much finer along one axis: their rounding is relative
-     * to the middle's distance, and so is this margin. */
+    /* The plane's terms cancel where the field is much finer along one axis: their rounding is
+     * relative to the middle's distance, and so is this margin. */
     const hc_v middle = hc_v_about_muladd(slope, hc_v_mul(length, hc_v_set(LOWER)), height);
     unsigned   found  = 0;
     for (int r = 0; r < 4; r++) {
@@ -337,7 +339,8 @@ INLINE offsets block_offsets(const tile *t, int part, const hc_node_list *list, 
     return o;
 }
 
-/* Lanes whose block the part's table covers. Images of a wrapped field may be out of step with it. */
+/* Lanes whose block the part's table covers. Images of a wrapped field may be out of step with
+ * it. */
 INLINE unsigned near_lanes(const tile *t, const offsets *o)
 {
     const bool in_step = ((t->x | t->y) & 3) == 0;

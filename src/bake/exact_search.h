@@ -5,19 +5,21 @@
 
 #include "block_tree.h"
 
-/* The search works on tiles of 8 x 8 samples: four parts, each of the sixteen samples of a block. */
+/* The search works on tiles of 8 x 8 samples: four parts, each of the sixteen samples of a
+ * block. */
 #define HC_TILE_SIDE 8
 #define HC_TILE_PARTS 4
 
 /* Blocks whose corner lies up to this many samples from a part's corner take their weights from a
- * table; beyond, weights are computed when needed. A multiple of 4. Larger tables left the L2 cache. */
+ * table; beyond, weights are computed when needed. A multiple of 4. Larger tables left the L2
+ * cache. */
 #define HC_NEAR_REACH 20
 #define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
 #define HC_NEAR_BLOCKS (2 * HC_NEAR_REACH / 4 + 1)
 
 typedef struct hc_near_table {
-    /* [row][column] + HC_NEAR_REACH: weights of a sample at that offset from a part's first sample, seen
-     * from each of the part's samples; 0 for the sample itself and outside the quadrant */
+    /* [row][column] + HC_NEAR_REACH: weights of a sample at that offset from a part's first sample,
+     * seen from each of the part's samples; 0 for the sample itself and outside the quadrant */
     _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_SIDE][16];
     /* the largest weight of any sample in the block at 4 * (column - HC_NEAR_REACH / 4) */
     _Alignas(64) float block[HC_NEAR_BLOCKS][HC_NEAR_BLOCKS][16];
@@ -43,8 +45,8 @@ typedef struct hc_node_list {
     float   top[HC_LIST + 32]; /* highest sample below the node, minus base */
 } hc_node_list;
 
-/* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are first
- * guesses for the next tile, which its result does not depend on. */
+/* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are
+ * first guesses for the next tile, which its result does not depend on. */
 typedef struct hc_exact_scratch {
     hc_node_list lists[HC_TREE_LEVELS_MAX];
     float        recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];

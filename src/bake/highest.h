@@ -13,7 +13,8 @@ typedef struct hc_highest {
     const float *level[HC_LEVELS_MAX];
 } hc_highest;
 
-/* Allocate; `values` may be filled with the base level before hc_highest_fill takes it from there. */
+/* Allocate; `values` may be filled with the base level before hc_highest_fill takes it from
+ * there. */
 hc_result hc_highest_allocate(hc_highest *made, int width, int height, hc_log *log);
 void      hc_highest_fill(hc_highest *made, const float *heights);
 

@@ -12,9 +12,9 @@ int hc_height_code(float height, int bits);
 int hc_height_code_up(float height, int bits);
 int hc_height_code_down(float height, int bits);
 
-/* Highest code that stands for a ratio of at most `ratio`: code 0, "no free space known", only where
- * the ratio is below that of code 1. ratio > 0, may be infinite; max_ratio > 0, what the largest
- * code stands for. */
+/* Highest code that stands for a ratio of at most `ratio`: code 0, "no free space known", only
+ * where the ratio is below that of code 1. ratio > 0, may be infinite; max_ratio > 0, what the
+ * largest code stands for. */
 int hc_ratio_code(float ratio, int bits, float max_ratio);
 
 /* Code of a slope, given in height codes per texel step: nearest, halves towards level as the 2006

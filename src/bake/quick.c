@@ -176,8 +176,8 @@ static float lesser(float a, float b)
     return a < b ? a : b;
 }
 
-/* Steepest of all blocks by one metric, the axes' reaches scaled (by powers of two, which is exact).
- * Levels that cannot matter are left out, which changes no result. */
+/* Steepest of all blocks by one metric, the axes' reaches scaled (by powers of two, which is
+ * exact). Levels that cannot matter are left out, which changes no result. */
 static inline float steepest(const quick *self, const beside *u, const beside *v, float height,
                              int blocks, bool l2, float scale_u, float scale_v)
 {

@@ -22,8 +22,8 @@ static void slopes_of(double *slopes, const hc_exact_plan *plan, const float *ra
         }
         return;
     }
-    /* The elongations that were not chosen are unknown, but none has a smaller sum of slopes. A ratio
-     * that was cut at max_ratio says only that its slope is not large. */
+    /* The elongations that were not chosen are unknown, but none has a smaller sum of slopes. A
+     * ratio that was cut at max_ratio says only that its slope is not large. */
     const bool   cut_u = max_ratio > 0.0F && ratios[0] >= max_ratio;
     const bool   cut_v = max_ratio > 0.0F && ratios[1] >= max_ratio;
     const double sum =
@@ -84,8 +84,8 @@ static double needed_at(const hc_reach *reach, double distance)
            + (reach->height[k + 1] - reach->height[k]) * ((distance - start) / (end - start));
 }
 
-/* Samples between two ranges that begin at `from` and `to`; negative `sign`: only if `to` reaches to
- * the left of `from`'s last, positive: to the right of its first. -1 if it does not. */
+/* Samples between two ranges that begin at `from` and `to`; negative `sign`: only if `to` reaches
+ * to the left of `from`'s last, positive: to the right of its first. -1 if it does not. */
 static int gap(int from, int from_count, int to, int to_count, int sign)
 {
     const int after  = to - (from + from_count - 1);

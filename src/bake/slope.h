@@ -4,7 +4,8 @@
 
 #include <stdbool.h>
 
-/* Neighbours on one axis: both sides inside and across a wrapped border, one-sided at an open one. */
+/* Neighbours on one axis: both sides inside and across a wrapped border, one-sided at an open
+ * one. */
 typedef struct hc_slope_pair {
     int low, high;
     int steps; /* sample distances between them; 0 on an open axis of one sample */

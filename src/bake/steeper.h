@@ -1,9 +1,9 @@
 /* The steepest sample so far, and asking whether another can be steeper without root or division.
  *
  * The canonical steepness is s = fl(rise * weight), the weight one over the distance (canonical.h).
- * Here an offset comes as its `reach`: the squared distance for l2, the distance for l1, formed like
- * the canonical weight's. s > known (a float) implies rise * weight > known before rounding, and the
- * weight is off by a few 2^-24, so
+ * Here an offset comes as its `reach`: the squared distance for l2, the distance for l1, formed
+ * like the canonical weight's. s > known (a float) implies rise * weight > known before rounding,
+ * and the weight is off by a few 2^-24, so
  *   l2: rise^2 > known^2 * reach * (1 - 2^-21),   l1: rise > known * reach * (1 - 2^-21).
  * `edge` is known^2 (known) times 1 - 2^-18, which outweighs the rounding of the products, so that
  * power >= edge * reach holds for each sample that is steeper.
@@ -36,8 +36,8 @@ static inline float hc_reach_weight(bool l2, float reach)
     return 1.0F / (l2 ? sqrtf(reach) : reach);
 }
 
-/* What a rise counts for beside a reach. It keeps the sign: which way a pair of samples slopes is as
- * good as random, and one comparison that mostly fails costs less than a branch on it. */
+/* What a rise counts for beside a reach. It keeps the sign: which way a pair of samples slopes is
+ * as good as random, and one comparison that mostly fails costs less than a branch on it. */
 static inline float hc_power(bool l2, float rise)
 {
     return l2 ? rise * fabsf(rise) : rise;

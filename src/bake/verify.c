@@ -10,7 +10,8 @@
 
 enum { CHUNK_MIN = 16, CHUNKS_MAX = 1 << 16, CONES_MAX = 4 };
 
-/* Results of one chunk of texels; added up in their order, so that sums do not depend on threads. */
+/* Results of one chunk of texels; added up in their order, so that sums do not depend on
+ * threads. */
 typedef struct tally {
     size_t wider;
     double widest_factor;

@@ -10,7 +10,8 @@ static bool runs(hc_isa isa)
     case HC_ISA_AVX512:
         return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq")
                && __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl");
-    case HC_ISA_AVX2: return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
+    case HC_ISA_AVX2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")
                && __builtin_cpu_supports("bmi2");
     default: return isa == HC_ISA_SCALAR;
     }

@@ -7,9 +7,11 @@
  * hc_v_keep          a where the bit is set, 0 elsewhere
  * hc_v_about_muladd  a * b + c, fused or not: for bounds with a margin, never for results
  * hc_v_about_sqrt    at most the square root of a >= 0, and at least (1 - 2^-9) of it
- * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) - first,
+ * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) -
+ * first,
  *                    0, 15) is the piece of a >= 0 on a scale of powers of two
- * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even if
+ * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
+ * if
  *                    fewer are set; returns how many are */
 #ifndef HC_BASE_SIMD_H
 #define HC_BASE_SIMD_H

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Compile each public header alone, twice in a row, as C17 and as C++17, with every compiler there is.
+# Compile each public header alone, twice in a row, as C17 and as C++17, with every compiler there
+# is.
 # usage: check_headers.sh ROOT FOLDER
 set -euo pipefail
 root=$1
@@ -13,8 +14,8 @@ compile() {
     local source="$folder/alone.$2"
     printf '#include <heightcast/%s>\n#include <heightcast/%s>\n' "$4" "$4" >"$source"
     compiled=$((compiled + 1))
-    if ! "$1" "-std=$3" -x "$2" -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror \
-        -I"$root/include" "$source"; then
+    if ! "$1" "-std=$3" -x "$2" -fsyntax-only -Wall -Wextra -Wpedantic -Wconversion -Wshadow \
+        -Werror -I"$root/include" "$source"; then
         echo "$4 does not stand alone: $1 -std=$3"
         failed=$((failed + 1))
     fi

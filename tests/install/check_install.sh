@@ -30,7 +30,8 @@ cmake --build consumer -- --quiet
 # by pkg-config
 source=$root/tests/install
 # shellcheck disable=SC2046 # the flags are meant to be split
-cc -std=c17 "$source/consumer.c" -o consumer/by_pkg_config $(pkg-config --cflags --libs heightcast-io)
+cc -std=c17 "$source/consumer.c" -o consumer/by_pkg_config \
+    $(pkg-config --cflags --libs heightcast-io)
 # shellcheck disable=SC2046
 c++ -std=c++17 "$source/core_only.cpp" -o consumer/core_by_pkg_config \
     $(pkg-config --cflags --libs heightcast)

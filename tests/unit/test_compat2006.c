@@ -80,7 +80,7 @@ static void test_zero_becomes_one(void **state)
     free(rgba);
 }
 
-/* ---- the formulas once more ------------------------------------------------------------------- */
+/* ---- the formulas once more ------------------------------------------------------------------ */
 
 typedef struct image {
     const uint8_t *codes;

@@ -10,7 +10,7 @@
 
 #include <cmocka.h>
 
-/* ---- options ---------------------------------------------------------------------------------- */
+/* ---- options --------------------------------------------------------------------------------- */
 
 static const float eight[8] = { 0.0F, 0.1F, 0.2F, 0.3F, 0.4F, 0.5F, 0.6F, 1.0F };
 
@@ -134,7 +134,7 @@ static void test_refused_fields(void **state)
     assert_non_null(strstr(log.text, "NULL"));
 }
 
-/* ---- cone maps -------------------------------------------------------------------------------- */
+/* ---- cone maps ------------------------------------------------------------------------------- */
 
 static hc_field field_of(const small_case *small)
 {
@@ -237,7 +237,7 @@ static void test_safe_methods_stay_safe_in_codes(void **state)
     }
 }
 
-/* ---- layout dummer ---------------------------------------------------------------------------- */
+/* ---- layout dummer --------------------------------------------------------------------------- */
 
 static int at_most(int value, int most)
 {
@@ -297,7 +297,7 @@ static void test_compat2006(void **state)
     free(map.texels);
 }
 
-/* ---- relaxed, heights, pyramids, gradients ---------------------------------------------------- */
+/* ---- relaxed, heights, pyramids, gradients --------------------------------------------------- */
 
 static void test_relaxed(void **state)
 {

@@ -8,7 +8,7 @@
 
 #include <cmocka.h>
 
-/* ---- the printed algorithms with explicit sets ------------------------------------------------ */
+/* ---- the printed algorithms with explicit sets ----------------------------------------------- */
 
 /* Image coordinates from one period before the field to one after it. */
 enum { ORIGIN = 32, PLANE = 96 };
@@ -127,7 +127,7 @@ static void test_is_the_printed_algorithm(void **state)
     }
 }
 
-/* ---- safety and quality ----------------------------------------------------------------------- */
+/* ---- safety and quality ---------------------------------------------------------------------- */
 
 static void test_never_wider_than_brute_force(void **state)
 {
@@ -184,8 +184,8 @@ static double mean_of(const float *ratios, int count)
     return sum / count;
 }
 
-/* On natural fields the improved variant keeps much of the true width, the naive one little, and the
- * centres go beyond it: by a known direction, not by a known amount. */
+/* On natural fields the improved variant keeps much of the true width, the naive one little, and
+ * the centres go beyond it: by a known direction, not by a known amount. */
 static void test_width_kept(void **state)
 {
     (void)state;
@@ -218,7 +218,7 @@ static void test_width_kept(void **state)
     assert_true(wider > 0); /* NOT safe, as bake.h says */
 }
 
-/* ---- centres: a row of eight, one tower ------------------------------------------------------- */
+/* ---- centres: a row of eight, one tower ------------------------------------------------------ */
 
 static float row_ratio(bool improved, int tower)
 {
@@ -250,7 +250,7 @@ static void test_centres_by_hand(void **state)
     assert_true(fabsf(row_ratio(false, 7) - 5.5F) < 1e-5F);
 }
 
-/* ---- threads ---------------------------------------------------------------------------------- */
+/* ---- threads --------------------------------------------------------------------------------- */
 
 static void test_threads_do_not_show(void **state)
 {

@@ -7,7 +7,7 @@
 
 #include <cmocka.h>
 
-/* ---- falling edge ----------------------------------------------------------------------------- */
+/* ---- falling edge ---------------------------------------------------------------------------- */
 
 static int step_on(int place, int side, bool wraps, int direction)
 {
@@ -93,7 +93,7 @@ static void test_falling_edge_by_hand(void **state)
     assert_true(same_bits(ratios[5], 1.0F / (0.75F * (1.0F / 0.5F)) * keep));
 }
 
-/* ---- gems ------------------------------------------------------------------------------------- */
+/* ---- gems ------------------------------------------------------------------------------------ */
 
 static float bilinear(const hc_cone_job *job, float column, float row)
 {
@@ -211,8 +211,8 @@ static void test_gems_by_hand(void **state)
         heights[x] = 0.5F;
     }
     assert_int_equal(hc_cone_gems(&job), HC_OK);
-    /* From sample 10 through the wall's far top (23): height 1 - d / 26 at distance d, the face falls
-     * from 1/2 at d = 13 to 0 at d = 14: steeper than the ray, so it is out at once there. */
+    /* From sample 10 through the wall's far top (23): height 1 - d / 26 at distance d, the face
+     * falls from 1/2 at d = 13 to 0 at d = 14: steeper than the ray, so it is out at once there. */
     assert_true(ratios[10] >= 13.0F / 64 / 0.5F * 0.999F);
     assert_true(ratios[10] <= 13.1F / 64 / 0.49F);
 }

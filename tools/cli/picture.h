@@ -11,9 +11,9 @@ typedef struct hc_cli_panel {
     double       top;    /* value of the scale's bright end    */
 } hc_cli_panel;
 
-/* Draw the panels, two side by side, each with title, scale and labels, and write them as PNG. Small
- * fields are enlarged; of large ones each pixel shows the largest value under it, so that single
- * texels stay visible. */
+/* Draw the panels, two side by side, each with title, scale and labels, and write them as PNG.
+ * Small fields are enlarged; of large ones each pixel shows the largest value under it, so that
+ * single texels stay visible. */
 hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
                              int width, int height);
 
