@@ -101,8 +101,7 @@ typedef struct hc_rect {
 } hc_rect;
 
 /* A cone baker that stays: keeps the pyramids between calls so that a change of a small rectangle
- * costs what it affects. Method exact; owns about 9 bytes per sample and ratio channel; one thread
- * at a time. */
+ * costs what it affects. Method exact; owns about 4.5 bytes per sample; one thread at a time. */
 typedef struct hc_cone_baker hc_cone_baker;
 
 /* Create a baker and bake `ratios` for `field` once (as hc_bake_cone_map with method exact). The

@@ -9,19 +9,13 @@
 
 #include <stdlib.h>
 
-/* What one search compares: like hc_exact_pass, without its tree. */
-typedef struct brute_pass {
-    float step_u, step_v;
-    int   sign_u, sign_v; /* 0: all directions */
-} brute_pass;
-
 typedef struct brute {
     const hc_cone_job *job;
     hc_brute_rows      rows;
-    brute_pass         passes[HC_ANISO_COUNT];
-    int                pass_count;
+    hc_cone_search     searches[HC_CONE_SEARCHES_MAX];
+    int                search_count;
     float             *weights; /* a worker: 2 * width - 1                */
-    float             *best;    /* a worker: pass_count rows of steepness */
+    float             *best;    /* a worker: search_count rows of steepness */
 } brute;
 
 static hc_brute_rows rows_kernel(hc_isa isa)
@@ -38,23 +32,6 @@ static hc_brute_rows rows_kernel(hc_isa isa)
     return hc_brute_rows_scalar;
 }
 
-static void set_passes(brute *b)
-{
-    const hc_cone_job *job = b->job;
-    b->pass_count          = job->cones == HC_CONES_QUAD    ? 4
-                             : job->cones == HC_CONES_ANISO ? HC_ANISO_COUNT
-                                                            : 1;
-    for (int i = 0; i < b->pass_count; i++) {
-        const float stretch = job->cones == HC_CONES_ANISO ? hc_aniso_elongation[i] : 1.0F;
-        b->passes[i] =
-            (brute_pass){ .step_u = job->step_u * stretch, .step_v = job->step_v / stretch };
-        if (job->cones == HC_CONES_QUAD) {
-            b->passes[i].sign_u = i % 2 == 0 ? 1 : -1;
-            b->passes[i].sign_v = i / 2 == 0 ? 1 : -1;
-        }
-    }
-}
-
 /* Least distance from p to any image of q, `d` = q - p samples away along an axis of `count`
  * samples, on the side that `sign` asks for; -1 if there is none. */
 static int nearest(int d, int count, bool wrap, int sign)
@@ -68,15 +45,16 @@ static int nearest(int d, int count, bool wrap, int sign)
 }
 
 /* Weights of a row `dy` rows below, for all column distances p - q. */
-static void fill_weights(float *weights, const hc_cone_job *job, const brute_pass *pass, int dy)
+static void fill_weights(float *weights, const hc_cone_job *job, const hc_cone_search *search,
+                         int dy)
 {
-    const int j = nearest(dy, job->height, job->wrap_v, pass->sign_v);
+    const int j = nearest(dy, job->height, job->wrap_v, search->sign_v);
     for (int d = 1 - job->width; d < job->width; d++) {
-        const int i = nearest(-d, job->width, job->wrap_u, pass->sign_u);
+        const int i = nearest(-d, job->width, job->wrap_u, search->sign_u);
         float     w = 0.0F;
         if (i >= 0 && j >= 0 && (i > 0 || j > 0)) {
-            w = job->cones == HC_CONES_L2 ? hc_weight_l2(i, j, pass->step_u, pass->step_v)
-                                          : hc_weight_l1(i, j, pass->step_u, pass->step_v);
+            w = job->cones == HC_CONES_L2 ? hc_weight_l2(i, j, search->step_u, search->step_v)
+                                          : hc_weight_l1(i, j, search->step_u, search->step_v);
         }
         weights[job->width - 1 + d] = w;
     }
@@ -89,16 +67,10 @@ static void write_row(const brute *b, int y, const float *best)
     for (size_t x = 0; x < width; x++) {
         float *ratios = job->ratios + ((size_t)y * width + x) * (size_t)job->channels;
         float  steepness[HC_ANISO_COUNT];
-        for (int i = 0; i < b->pass_count; i++) {
+        for (int i = 0; i < b->search_count; i++) {
             steepness[i] = best[(size_t)i * width + x];
         }
-        if (job->cones == HC_CONES_ANISO) {
-            hc_aniso_choose(ratios, steepness);
-        } else {
-            for (int i = 0; i < b->pass_count; i++) {
-                ratios[i] = hc_ratio(steepness[i]);
-            }
-        }
+        hc_write_ratios(ratios, job->cones, steepness);
     }
 }
 
@@ -108,16 +80,16 @@ static void bake_row(void *context, int y, int worker)
     const hc_cone_job *job     = b->job;
     const size_t       width   = (size_t)job->width;
     float             *weights = b->weights + (size_t)worker * 2 * width;
-    float             *best    = b->best + (size_t)worker * (size_t)b->pass_count * width;
+    float             *best    = b->best + (size_t)worker * (size_t)b->search_count * width;
     const float       *apexes  = job->heights + (size_t)y * width;
-    for (size_t i = 0; i < (size_t)b->pass_count * width; i++) {
+    for (size_t i = 0; i < (size_t)b->search_count * width; i++) {
         best[i] = 0.0F;
     }
-    for (int pass = 0; pass < b->pass_count; pass++) {
+    for (int i = 0; i < b->search_count; i++) {
         for (int other = 0; other < job->height; other++) {
-            fill_weights(weights, job, &b->passes[pass], other - y);
-            b->rows(best + (size_t)pass * width, apexes, job->heights + (size_t)other * width,
-                    weights, job->width);
+            fill_weights(weights, job, &b->searches[i], other - y);
+            b->rows(best + (size_t)i * width, apexes, job->heights + (size_t)other * width, weights,
+                    job->width);
         }
     }
     write_row(b, y, best);
@@ -125,11 +97,11 @@ static void bake_row(void *context, int y, int worker)
 
 hc_result hc_cone_brute(const hc_cone_job *job)
 {
-    brute b = { .job = job, .rows = rows_kernel(job->isa) };
-    set_passes(&b);
+    brute b           = { .job = job, .rows = rows_kernel(job->isa) };
+    b.search_count    = hc_cone_searches(b.searches, job);
     const size_t rows = (size_t)job->threads * (size_t)job->width * sizeof(float);
     b.weights         = malloc(rows * 2);
-    b.best            = malloc(rows * (size_t)b.pass_count);
+    b.best            = malloc(rows * (size_t)b.search_count);
     hc_result result  = HC_ERROR_MEMORY;
     if (b.weights != NULL && b.best != NULL) {
         result = hc_parallel_for(job->height, job->threads, bake_row, &b, job->progress, job->log);

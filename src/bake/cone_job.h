@@ -33,6 +33,20 @@ extern const float hc_aniso_elongation[HC_ANISO_COUNT];
 /* ratio_u, ratio_v and the plain diamond's ratio from the largest steepness of each elongation. */
 void hc_aniso_choose(float *ratios, const float steepness[HC_ANISO_COUNT]);
 
+/* One search for the largest steepness: its steps, and the side that it looks at. */
+typedef struct hc_cone_search {
+    float step_u, step_v;
+    int   sign_u, sign_v; /* 0: all directions; +1, -1: that side only (always both) */
+} hc_cone_search;
+
+#define HC_CONE_SEARCHES_MAX HC_ANISO_COUNT
+
+/* The searches that the job's cones need, in the order that hc_write_ratios takes; how many. */
+int hc_cone_searches(hc_cone_search searches[HC_CONE_SEARCHES_MAX], const hc_cone_job *job);
+
+/* Channels of one sample from the largest steepness that each search found. */
+void hc_write_ratios(float *ratios, hc_cones cones, const float *steepness);
+
 hc_result hc_cone_exact(const hc_cone_job *job);
 hc_result hc_cone_brute(const hc_cone_job *job);
 hc_result hc_cone_ring(const hc_cone_job *job);                              /* l2, l1       */

@@ -23,6 +23,33 @@ void hc_aniso_choose(float *ratios, const float steepness[HC_ANISO_COUNT])
     ratios[2] = hc_ratio(steepness[HC_ANISO_COUNT / 2]);
 }
 
+int hc_cone_searches(hc_cone_search searches[HC_CONE_SEARCHES_MAX], const hc_cone_job *job)
+{
+    const bool aniso = job->cones == HC_CONES_ANISO;
+    const int  count = aniso ? HC_ANISO_COUNT : job->channels;
+    for (int i = 0; i < count; i++) {
+        const float stretch = aniso ? hc_aniso_elongation[i] : 1.0F;
+        searches[i] =
+            (hc_cone_search){ .step_u = job->step_u * stretch, .step_v = job->step_v / stretch };
+        if (job->cones == HC_CONES_QUAD) {
+            searches[i].sign_u = i % 2 == 0 ? 1 : -1;
+            searches[i].sign_v = i / 2 == 0 ? 1 : -1;
+        }
+    }
+    return count;
+}
+
+void hc_write_ratios(float *ratios, hc_cones cones, const float *steepness)
+{
+    if (cones == HC_CONES_ANISO) {
+        hc_aniso_choose(ratios, steepness);
+        return;
+    }
+    for (int i = 0; i < hc_cones_channels(cones); i++) {
+        ratios[i] = hc_ratio(steepness[i]);
+    }
+}
+
 hc_result hc_cone_job_init(hc_cone_job *job, float *ratios, const hc_field *field,
                            const hc_cone_options *options, hc_log *log)
 {

@@ -54,31 +54,22 @@ static void fill_block_weights(hc_near_table *table)
 
 /* ---- passes ---- */
 
-static void set_passes(hc_exact_plan *plan, const hc_cone_job *job)
+static void set_passes(hc_exact_plan *plan, const hc_cone_job *job, const hc_cone_search *searches)
 {
-    plan->count = hc_exact_pass_count(job->cones);
     for (int i = 0; i < plan->count; i++) {
-        const float    stretch = job->cones == HC_CONES_ANISO ? hc_aniso_elongation[i] : 1.0F;
-        hc_exact_pass *pass    = &plan->passes[i];
-        *pass                  = (hc_exact_pass){ .tree    = &plan->tree,
-                                                  .near    = &plan->tables[i],
-                                                  .step_u  = job->step_u * stretch,
-                                                  .step_v  = job->step_v / stretch,
-                                                  .diamond = job->cones != HC_CONES_L2,
-                                                  .wrap_u  = job->wrap_u,
-                                                  .wrap_v  = job->wrap_v };
-        if (job->cones == HC_CONES_QUAD) {
-            pass->sign_u = i % 2 == 0 ? 1 : -1;
-            pass->sign_v = i / 2 == 0 ? 1 : -1;
-        }
-        fill_sample_weights(&plan->tables[i], pass);
+        const hc_cone_search *search = &searches[i];
+        plan->passes[i]              = (hc_exact_pass){ .tree    = &plan->tree,
+                                                        .near    = &plan->tables[i],
+                                                        .step_u  = search->step_u,
+                                                        .step_v  = search->step_v,
+                                                        .diamond = job->cones != HC_CONES_L2,
+                                                        .sign_u  = search->sign_u,
+                                                        .sign_v  = search->sign_v,
+                                                        .wrap_u  = job->wrap_u,
+                                                        .wrap_v  = job->wrap_v };
+        fill_sample_weights(&plan->tables[i], &plan->passes[i]);
         fill_block_weights(&plan->tables[i]);
     }
-}
-
-int hc_exact_pass_count(hc_cones cones)
-{
-    return cones == HC_CONES_QUAD ? 4 : cones == HC_CONES_ANISO ? HC_ANISO_COUNT : 1;
 }
 
 static hc_exact_tile tile_kernel(hc_isa isa)
@@ -97,8 +88,10 @@ static hc_exact_tile tile_kernel(hc_isa isa)
 
 hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job)
 {
-    *plan               = (hc_exact_plan){ .kernel = tile_kernel(job->isa), .cones = job->cones };
-    const size_t n      = (size_t)hc_exact_pass_count(job->cones);
+    *plan = (hc_exact_plan){ .kernel = tile_kernel(job->isa), .cones = job->cones };
+    hc_cone_search searches[HC_CONE_SEARCHES_MAX];
+    plan->count         = hc_cone_searches(searches, job);
+    const size_t n      = (size_t)plan->count;
     plan->tables        = aligned_alloc(64, n * sizeof *plan->tables);
     plan->scratch       = calloc((size_t)job->threads * n, sizeof *plan->scratch);
     plan->scratch_count = (size_t)job->threads * n;
@@ -112,7 +105,7 @@ hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job)
         hc_exact_plan_finish(plan);
         return built;
     }
-    set_passes(plan, job);
+    set_passes(plan, job, searches);
     return HC_OK;
 }
 
@@ -130,18 +123,6 @@ void hc_exact_plan_forget(hc_exact_plan *plan)
 }
 
 /* ---- tiles ---- */
-
-/* Channels of one sample from what the passes found for it. */
-static void write_ratios(float *ratios, hc_cones cones, const float *steepness, int passes)
-{
-    if (cones == HC_CONES_ANISO) {
-        hc_aniso_choose(ratios, steepness);
-        return;
-    }
-    for (int i = 0; i < passes; i++) {
-        ratios[i] = hc_ratio(steepness[i]);
-    }
-}
 
 void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, int tile_y,
                           int worker)
@@ -163,7 +144,7 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
             }
             const size_t at = (size_t)y * (size_t)plan->tree.width + (size_t)x;
             float       *to = ratios + at * (size_t)channels;
-            write_ratios(to, plan->cones, steepness, plan->count);
+            hc_write_ratios(to, plan->cones, steepness);
             hc_limit_ratios(to, (size_t)channels, plan->max_ratio);
         }
     }

@@ -18,8 +18,6 @@ typedef struct hc_exact_plan {
     hc_exact_tile     kernel;
 } hc_exact_plan;
 
-int hc_exact_pass_count(hc_cones cones);
-
 /* Passes point into the plan: it must stay where it is. Finish accepts a plan that is all zero. */
 hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job);
 void      hc_exact_plan_finish(hc_exact_plan *plan);

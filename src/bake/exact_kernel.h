@@ -184,6 +184,12 @@ INLINE unsigned may_gain(kind k, const tile *t, hc_v slope, hc_v rise, hc_v acro
                      : hc_v_greater(hc_v_mul(rise, rise), hc_v_mul(hc_v_mul(slope, slope), size));
 }
 
+/* What S has become lets T rise. */
+INLINE void raise_threshold(tile *t, int part)
+{
+    t->T[part] = hc_v_max(hc_v_mul(t->S[part], hc_v_set(LOWER)), t->T[part]);
+}
+
 /* One distant sample against one part. True if it raised S somewhere. */
 INLINE bool take_distant(kind k, tile *t, int part, int x, int y, float height)
 {
@@ -200,7 +206,7 @@ INLINE bool take_distant(kind k, tile *t, int part, int x, int y, float height)
     }
     const hc_v steepness = hc_v_mul(rise, canonical_weight(k, t->pass, across, down));
     t->S[part]           = hc_v_max(hc_v_keep(better, steepness), t->S[part]);
-    t->T[part]           = hc_v_max(hc_v_mul(t->S[part], hc_v_set(LOWER)), t->T[part]);
+    raise_threshold(t, part);
     return true;
 }
 
@@ -251,7 +257,7 @@ INLINE void search_near_block(tile *t, int part, int dx, int dy, const float *sa
     const hc_v   rise     = hc_v_sub(generous, t->lifted[part]);
     if (hc_v_greater(hc_v_mul(rise, hc_v_load(weights)), t->T[part]) != 0) {
         t->S[part] = take_near(t->S[part], t->height[part], table, samples, dx, dy);
-        t->T[part] = hc_v_max(hc_v_mul(t->S[part], hc_v_set(LOWER)), t->T[part]);
+        raise_threshold(t, part);
     }
 }
 

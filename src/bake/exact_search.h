@@ -11,8 +11,8 @@
 #define HC_TILE_PARTS 4
 
 /* Blocks whose corner lies up to this many samples from a part's corner take their weights from a
- * table; beyond, weights are computed when needed. A multiple of 4. Larger tables left the L2
- * cache. */
+ * table; beyond, weights are computed when needed. A multiple of 4; larger tables gained nothing.
+ */
 #define HC_NEAR_REACH 20
 #define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
 #define HC_NEAR_BLOCKS (2 * HC_NEAR_REACH / 4 + 1)
