@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 enum { SIDE = 4, ENTRIES = SIDE * SIDE };
 
@@ -67,6 +68,14 @@ static void find_range(hc_block_tree *tree, const float *heights)
 static void copy_block(const hc_block_tree *tree, const float *heights, int block_x, int block_y)
 {
     float *entries = hc_tree_node(&tree->levels[0], block_x, block_y);
+    if ((block_x + 1) * SIDE <= tree->width && (block_y + 1) * SIDE <= tree->height) {
+        const size_t stride = (size_t)tree->width;
+        const float *row    = heights + (size_t)block_y * SIDE * stride + (size_t)block_x * SIDE;
+        for (int r = 0; r < SIDE; r++) {
+            memcpy(entries + (size_t)r * SIDE, row + (size_t)r * stride, SIDE * sizeof(float));
+        }
+        return;
+    }
     for (int i = 0; i < ENTRIES; i++) {
         const int x = block_x * SIDE + i % SIDE;
         const int y = block_y * SIDE + i / SIDE;

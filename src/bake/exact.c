@@ -26,11 +26,11 @@ static float weight(const hc_exact_pass *pass, int dx, int dy)
 
 static void fill_sample_weights(hc_near_table *table, const hc_exact_pass *pass)
 {
-    for (int y = 0; y < HC_NEAR_SIDE; y++) {
-        for (int x = 0; x < HC_NEAR_SIDE; x++) {
-            for (int p = 0; p < 16; p++) {
-                table->sample[y][x][p] =
-                    weight(pass, x - HC_NEAR_REACH - p % 4, y - HC_NEAR_REACH - p / 4);
+    for (int column = 0; column < HC_NEAR_SIDE; column++) {
+        for (int group = 0; group < HC_NEAR_GROUPS; group++) {
+            for (int lane = 0; lane < 4; lane++) {
+                table->sample[column][group][lane] =
+                    weight(pass, column - HC_NEAR_REACH - lane, HC_NEAR_REACH + 3 - group);
             }
         }
     }
@@ -43,7 +43,8 @@ static void fill_block_weights(hc_near_table *table)
             for (int p = 0; p < 16; p++) {
                 float most = 0.0F;
                 for (int q = 0; q < 16; q++) {
-                    const float w = table->sample[4 * y + q / 4][4 * x + q % 4][p];
+                    const float w = hc_near_weights(table, 4 * x + q % 4 - HC_NEAR_REACH,
+                                                    4 * y + q / 4 - HC_NEAR_REACH)[p];
                     most          = w > most ? w : most;
                 }
                 table->block[y][x][p] = most;
@@ -124,52 +125,89 @@ void hc_exact_plan_forget(hc_exact_plan *plan)
 
 /* ---- tiles ---- */
 
+enum { TILE_SAMPLES = HC_TILE_SIDE * HC_TILE_SIDE };
+
+/* One channel of `count` samples side by side. */
+static void write_plain(float *ratios, const float *found, int count)
+{
+    for (int i = 0; i < count; i++) {
+        ratios[i] = hc_ratio(found[i]);
+    }
+}
+
+/* All channels of `count` samples side by side. */
+static void write_channels(float *ratios, const hc_exact_plan *plan, float (*found)[TILE_SAMPLES],
+                           int first, int count)
+{
+    const int channels = hc_cones_channels(plan->cones);
+    for (int s = first; s < first + count; s++) {
+        float steepness[HC_ANISO_COUNT];
+        for (int i = 0; i < plan->count; i++) {
+            steepness[i] = found[i][s];
+        }
+        hc_write_ratios(ratios, plan->cones, steepness);
+        ratios += channels;
+    }
+}
+
 void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, int tile_y,
                           int worker)
 {
-    enum { SAMPLES = HC_TILE_SIDE * HC_TILE_SIDE };
-    const int channels = hc_cones_channels(plan->cones);
-    float     found[HC_ANISO_COUNT][SAMPLES];
+    float found[HC_ANISO_COUNT][TILE_SAMPLES];
     for (int i = 0; i < plan->count; i++) {
         plan->kernel(found[i], &plan->passes[i], tile_x, tile_y,
                      &plan->scratch[worker * plan->count + i]);
     }
-    for (int s = 0; s < SAMPLES; s++) {
-        const int x = tile_x * HC_TILE_SIDE + s % HC_TILE_SIDE;
-        const int y = tile_y * HC_TILE_SIDE + s / HC_TILE_SIDE;
-        if (x < plan->tree.width && y < plan->tree.height) {
-            float steepness[HC_ANISO_COUNT];
-            for (int i = 0; i < plan->count; i++) {
-                steepness[i] = found[i][s];
-            }
-            const size_t at = (size_t)y * (size_t)plan->tree.width + (size_t)x;
-            float       *to = ratios + at * (size_t)channels;
-            hc_write_ratios(to, plan->cones, steepness);
-            hc_limit_ratios(to, (size_t)channels, plan->max_ratio);
+    const size_t channels = (size_t)hc_cones_channels(plan->cones);
+    const int    x        = tile_x * HC_TILE_SIDE;
+    const int    left     = plan->tree.width - x;
+    const int    columns  = left < HC_TILE_SIDE ? left : HC_TILE_SIDE;
+    for (int r = 0; r < HC_TILE_SIDE && tile_y * HC_TILE_SIDE + r < plan->tree.height; r++) {
+        const size_t y  = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
+        float       *to = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
+        if (channels == 1) {
+            write_plain(to, found[0] + r * HC_TILE_SIDE, columns);
+        } else {
+            write_channels(to, plan, found, r * HC_TILE_SIDE, columns);
         }
+        hc_limit_ratios(to, (size_t)columns * channels, plan->max_ratio);
     }
 }
+
+/* Tiles of a strip's row. Strips are narrow enough for what their tiles look at to stay in the
+ * second-level cache from one row to the next. */
+enum { STRIP_TILES = 32 };
 
 typedef struct bake {
     const hc_exact_plan *plan;
     float               *ratios;
+    int                  rows;
 } bake;
 
-/* Every other row backwards: the next tile is always a neighbour, whose first guesses are good. */
-static void bake_tile_row(void *context, int row, int worker)
+/* Every other row backwards: the next tile is nearly always a neighbour, whose first guesses are
+ * good. */
+static void bake_strip_row(void *context, int item, int worker)
 {
     const bake *b     = context;
     const int   tiles = (b->plan->tree.width + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
-    for (int i = 0; i < tiles; i++) {
-        hc_exact_search_tile(b->plan, b->ratios, row % 2 == 0 ? i : tiles - 1 - i, row, worker);
+    const int   row   = item % b->rows;
+    const int   first = item / b->rows * STRIP_TILES;
+    const int   count = tiles - first < STRIP_TILES ? tiles - first : STRIP_TILES;
+    for (int i = 0; i < count; i++) {
+        const int tile_x = first + (row % 2 == 0 ? i : count - 1 - i);
+        hc_exact_search_tile(b->plan, b->ratios, tile_x, row, worker);
     }
 }
 
 hc_result hc_exact_plan_run(const hc_exact_plan *plan, const hc_cone_job *job)
 {
-    bake      b    = { .plan = plan, .ratios = job->ratios };
-    const int rows = (job->height + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
-    return hc_parallel_for(rows, job->threads, bake_tile_row, &b, job->progress, job->log);
+    const int strip  = STRIP_TILES * HC_TILE_SIDE;
+    const int strips = (job->width + strip - 1) / strip;
+    bake      b      = { .plan   = plan,
+                         .ratios = job->ratios,
+                         .rows   = (job->height + HC_TILE_SIDE - 1) / HC_TILE_SIDE };
+    return hc_parallel_for(strips * b.rows, job->threads, bake_strip_row, &b, job->progress,
+                           job->log);
 }
 
 hc_result hc_cone_exact(const hc_cone_job *job)

@@ -131,21 +131,21 @@ INLINE unsigned promising(kind k, const tile *t, const envelope *hull, hc_v acro
 
 /* ---- samples against samples ---- */
 
-/* A near block against one part: no tests, the table holds the canonical weights. Rows keep maxima
- * of their own, since one chain of sixteen maxima would take longer than all the rest.
+/* A near block against one part: no tests, the table holds the canonical weights. Columns keep
+ * maxima of their own, since one chain of sixteen maxima would take longer than all the rest.
  * The order of hc_v_max matters: rise * 0 may be -0, which must not replace S. */
 INLINE hc_v take_near(hc_v S, hc_v height, const hc_near_table *table, const float *samples, int dx,
                       int dy)
 {
-    hc_v rows[4] = { S, S, S, S };
-    for (int r = 0; r < 4; r++) {
-        const float(*weights)[16] = &table->sample[dy + r + HC_NEAR_REACH][dx + HC_NEAR_REACH];
-        for (int c = 0; c < 4; c++) {
+    hc_v columns[4] = { S, S, S, S };
+    for (int c = 0; c < 4; c++) {
+        const float *weights = hc_near_weights(table, dx + c, dy);
+        for (int r = 0; r < 4; r++) {
             const hc_v rise = hc_v_sub(hc_v_set(samples[4 * r + c]), height);
-            rows[r]         = hc_v_max(hc_v_mul(rise, hc_v_load(weights[c])), rows[r]);
+            columns[c]      = hc_v_max(hc_v_mul(rise, hc_v_load(weights - 4 * r)), columns[c]);
         }
     }
-    return hc_v_max(hc_v_max(rows[0], rows[1]), hc_v_max(rows[2], rows[3]));
+    return hc_v_max(hc_v_max(columns[0], columns[1]), hc_v_max(columns[2], columns[3]));
 }
 
 INLINE hc_v part_columns(const tile *t, int part)
@@ -239,26 +239,32 @@ INLINE void guess_from_recent(kind k, tile *t)
     }
 }
 
+/* First in, first out; but one that limits again when its turn has come stays. */
 static void remember(hc_exact_scratch *scratch, int x, int y, float height)
 {
-    const unsigned i          = scratch->recent_next++ % HC_RECENT;
-    scratch->recent_x[i]      = (float)x;
-    scratch->recent_y[i]      = (float)y;
-    scratch->recent_height[i] = height;
+    int known = -1;
+    for (int i = 0; i < HC_RECENT; i++) {
+        known = scratch->recent_x[i] == (float)x && scratch->recent_y[i] == (float)y ? i : known;
+    }
+    const int oldest = (int)(scratch->recent_next % HC_RECENT);
+    if (known < 0) {
+        scratch->recent_x[oldest]      = (float)x;
+        scratch->recent_y[oldest]      = (float)y;
+        scratch->recent_height[oldest] = height;
+    }
+    scratch->recent_next += known < 0 || known == oldest;
 }
 
 /* ---- blocks ---- */
 
-INLINE void search_near_block(tile *t, int part, int dx, int dy, const float *samples, float top)
+/* Can a near block hold something for the part? dx, dy: from the part's first sample to its. */
+INLINE bool near_needed(const tile *t, int part, int dx, int dy, float top)
 {
     const hc_near_table *table = t->pass->near;
     const float *weights  = table->block[dy / 4 + HC_NEAR_REACH / 4][dx / 4 + HC_NEAR_REACH / 4];
     const hc_v   generous = hc_v_set(top + t->pass->tree->range * 0x1p-19F);
     const hc_v   rise     = hc_v_sub(generous, t->lifted[part]);
-    if (hc_v_greater(hc_v_mul(rise, hc_v_load(weights)), t->T[part]) != 0) {
-        t->S[part] = take_near(t->S[part], t->height[part], table, samples, dx, dy);
-        raise_threshold(t, part);
-    }
+    return hc_v_greater(hc_v_mul(rise, hc_v_load(weights)), t->T[part]) != 0;
 }
 
 /* Gaps from samples at `from` to the block's four columns (rows) from `first` on. */
@@ -267,6 +273,13 @@ INLINE hc_v block_gap(hc_v from, int first)
     const hc_v after  = hc_v_sub(hc_v_set((float)first), from);
     const hc_v before = hc_v_sub(from, hc_v_set((float)(first + 3)));
     return hc_v_max(hc_v_max(after, before), hc_v_set(0.0F));
+}
+
+/* -1 or 1, for offsets half-way between samples. */
+INLINE hc_v sign_of(hc_v offset)
+{
+    const hc_v one = hc_v_set(1.0F);
+    return hc_v_max(hc_v_min(hc_v_mul(offset, hc_v_set(2.0F)), one), hc_v_sub(hc_v_set(0.0F), one));
 }
 
 /* Which rows of a distant block hold samples that the part may gain from.
@@ -280,41 +293,56 @@ INLINE unsigned promising_rows(kind k, const tile *t, int part, int x, int y, co
     const hc_v  across = hc_v_sub(hc_v_set((float)x + 1.5F), part_columns(t, part));
     const hc_v  rows   = hc_v_sub(hc_v_set((float)y + 1.5F), part_rows(t, part));
     const hc_v  down   = hc_v_mul(rows, hc_v_set(t->aspect));
-    const hc_v  length = k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down))
-                                   : hc_v_sqrt(measure(k, across, down));
-    const hc_v  per_u  = hc_v_div(across, k.diamond ? hc_v_abs(across) : length);
-    const hc_v  per_v  = hc_v_div(down, k.diamond ? hc_v_abs(down) : length);
+    const hc_v  size   = measure(k, hc_v_abs(across), hc_v_abs(down));
+    const hc_v  unit   = hc_v_about_rsqrt(size);
+    const hc_v  length = k.diamond ? size : hc_v_mul(size, unit);
+    const hc_v  per_u  = k.diamond ? sign_of(across) : hc_v_mul(across, unit);
+    const hc_v  per_v  = k.diamond ? sign_of(rows) : hc_v_mul(down, unit);
     const hc_v  rise_u = hc_v_mul(slope, per_u);
     const hc_v  rise_v = hc_v_mul(hc_v_mul(slope, per_v), hc_v_set(t->aspect));
     const hc_v  height = hc_v_sub(t->lifted[part], hc_v_set(range * 0x1p-19F));
     /* The plane's terms cancel where the field is much finer along one axis: their rounding is
      * relative to the middle's distance, and so is this margin. */
     const hc_v middle = hc_v_about_muladd(slope, hc_v_mul(length, hc_v_set(LOWER)), height);
-    unsigned   found  = 0;
+    float      tops[HC_LANES];
+    hc_v_store(tops, hc_v_sub(hc_v_load(samples), hc_v_set(t->pass->tree->base)));
+    hc_v above[4]; /* highest rise of each row above the plane */
     for (int r = 0; r < 4; r++) {
-        const hc_v row  = hc_v_about_muladd(rise_v, hc_v_set((float)r - 1.5F), middle);
-        hc_v       most = hc_v_set(-range);
-        for (int c = 0; c < 4; c++) {
-            const hc_v plane = hc_v_about_muladd(rise_u, hc_v_set((float)c - 1.5F), row);
-            const hc_v top   = hc_v_set(samples[4 * r + c] - t->pass->tree->base);
-            most             = hc_v_max(hc_v_sub(top, plane), most);
-        }
-        found |= (hc_v_greater(most, hc_v_set(0.0F)) != 0 ? 0xFU : 0U) << (4 * r);
+        above[r] = hc_v_set(-1.0F);
     }
-    return found;
+    for (int c = 0; c < 4; c++) {
+        const hc_v column = hc_v_about_muladd(rise_u, hc_v_set((float)c - 1.5F), middle);
+        for (int r = 0; r < 4; r++) {
+            above[r] = hc_v_max(hc_v_sub(hc_v_set(tops[4 * r + c]), column), above[r]);
+        }
+    }
+    for (int r = 0; r < 4; r++) {
+        above[r] = hc_v_sub(above[r], hc_v_mul(rise_v, hc_v_set((float)r - 1.5F)));
+    }
+    const hc_v zero       = hc_v_set(0.0F);
+    const hc_v most       = hc_v_max(hc_v_max(above[0], above[1]), hc_v_max(above[2], above[3]));
+    unsigned   rows_found = 0;
+    if (hc_v_greater(most, zero) != 0) {
+        for (int r = 0; r < 4; r++) {
+            rows_found |= (hc_v_greater(above[r], zero) != 0 ? 0xFU : 0U) << (4 * r);
+        }
+    }
+    return rows_found;
 }
 
-INLINE void search_distant_block(kind k, tile *t, int part, int x, int y, const float *samples,
-                                 float top)
+/* Can a distant block hold something for the part? */
+INLINE bool distant_needed(kind k, const tile *t, int part, int x, int y, float top)
 {
-    const hc_v     generous = hc_v_set(top + t->pass->tree->range * 0x1p-19F);
-    const hc_v     rise     = hc_v_max(hc_v_sub(generous, t->lifted[part]), hc_v_set(0.0F));
-    const hc_v     slope    = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
-    const unsigned needy    = may_gain(k, t, slope, rise, block_gap(part_columns(t, part), x),
-                                       block_gap(part_rows(t, part), y));
-    if (needy == 0) {
-        return;
-    }
+    const hc_v generous = hc_v_set(top + t->pass->tree->range * 0x1p-19F);
+    const hc_v rise     = hc_v_max(hc_v_sub(generous, t->lifted[part]), hc_v_set(0.0F));
+    const hc_v slope    = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
+    return may_gain(k, t, slope, rise, block_gap(part_columns(t, part), x),
+                    block_gap(part_rows(t, part), y))
+           != 0;
+}
+
+INLINE void search_distant_block(kind k, tile *t, int part, int x, int y, const float *samples)
+{
     unsigned found = promising_rows(k, t, part, x, y, samples);
     for (; found != 0; found &= found - 1) {
         const int i        = __builtin_ctz(found);
@@ -345,15 +373,6 @@ INLINE offsets block_offsets(const tile *t, int part, const hc_node_list *list, 
     return o;
 }
 
-/* Lanes whose block the part's table covers. Images of a wrapped field may be out of step with
- * it. */
-INLINE unsigned near_lanes(const tile *t, const offsets *o)
-{
-    const bool in_step = ((t->x | t->y) & 3) == 0;
-    const hc_v far     = hc_v_max(hc_v_abs(o->across), hc_v_abs(o->down));
-    return hc_v_greater(hc_v_set(in_step ? HC_NEAR_REACH + 1.0F : 0.0F), far) & o->listed;
-}
-
 /* The part's own block and those next to it have been searched before. */
 INLINE unsigned known_lanes(const tile *t, const offsets *o)
 {
@@ -363,72 +382,114 @@ INLINE unsigned known_lanes(const tile *t, const offsets *o)
 
 /* Listed blocks that one part still needs, as indices into the list. */
 typedef struct choice {
-    int     near_count, distant_count;
-    int32_t near[HC_LIST + 32], distant[HC_LIST + 32];
+    int     count;
+    int32_t blocks[HC_LIST + 32];
 } choice;
 
 INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list, choice *chosen)
 {
     const envelope hull = draw_envelope(t, part, 1);
-    chosen->near_count = chosen->distant_count = 0;
+    chosen->count       = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
         const offsets  o     = block_offsets(t, part, list, first);
         const hc_v     tops  = hc_v_load(list->top + first);
         const unsigned found = promising(k, t, &hull, o.across, o.down, tops, 4, 4) & o.listed;
-        const unsigned near  = near_lanes(t, &o);
-        chosen->near_count += hc_pack_lanes(chosen->near + chosen->near_count,
-                                            found & near & ~known_lanes(t, &o), LANE_INDEX, first);
-        chosen->distant_count += hc_pack_lanes(chosen->distant + chosen->distant_count,
-                                               found & ~near, LANE_INDEX, first);
+        chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found & ~known_lanes(t, &o),
+                                       LANE_INDEX, first);
     }
 }
 
-/* Near blocks first: they raise the thresholds that let distant ones be left out. */
-INLINE void search_part(kind k, tile *t, int part, const hc_node_list *list)
+/* Both searches first say which blocks are needed, and then look into those: two loops without
+ * branches that nobody can predict. */
+INLINE void search_near(kind k, tile *t, int part)
 {
-    const hc_tree_level *blocks = &t->pass->tree->levels[0];
-    const int            x      = t->x + 4 * (part & 1);
-    const int            y      = t->y + 4 * (part >> 1);
-    choice               chosen;
+    const hc_node_list *list = &t->scratch->near;
+    const int           x    = t->x + 4 * (part & 1);
+    const int           y    = t->y + 4 * (part >> 1);
+    choice              chosen;
     choose_blocks(k, t, part, list, &chosen);
-    for (int i = 0; i < chosen.near_count; i++) {
-        const int b = chosen.near[i];
-        search_near_block(t, part, 4 * list->x[b] - x, 4 * list->y[b] - y,
-                          hc_tree_node(blocks, list->x[b], list->y[b]), list->top[b]);
+    int needed = 0;
+    for (int i = 0; i < chosen.count; i++) {
+        const int b           = chosen.blocks[i];
+        chosen.blocks[needed] = b;
+        needed += near_needed(t, part, 4 * list->x[b] - x, 4 * list->y[b] - y, list->top[b]);
     }
-    for (int i = 0; i < chosen.distant_count; i++) {
-        const int b = chosen.distant[i];
+    hc_v S = t->S[part];
+    for (int i = 0; i < needed; i++) {
+        const int b = chosen.blocks[i];
+        S           = take_near(S, t->height[part], t->pass->near,
+                                hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]),
+                                4 * list->x[b] - x, 4 * list->y[b] - y);
+    }
+    t->S[part] = S;
+    raise_threshold(t, part);
+}
+
+INLINE void search_distant(kind k, tile *t, int part)
+{
+    const hc_node_list *list = &t->scratch->lists[0];
+    choice              chosen;
+    choose_blocks(k, t, part, list, &chosen);
+    int needed = 0;
+    for (int i = 0; i < chosen.count; i++) {
+        const int b           = chosen.blocks[i];
+        chosen.blocks[needed] = b;
+        needed += distant_needed(k, t, part, 4 * list->x[b], 4 * list->y[b], list->top[b]);
+    }
+    for (int i = 0; i < needed; i++) {
+        const int b = chosen.blocks[i];
         search_distant_block(k, t, part, 4 * list->x[b], 4 * list->y[b],
-                             hc_tree_node(blocks, list->x[b], list->y[b]), list->top[b]);
+                             hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]));
     }
 }
 
-INLINE void search_blocks(kind k, tile *t, hc_node_list *list)
+INLINE void search_blocks(kind k, tile *t)
 {
     for (int part = 0; part < HC_TILE_PARTS; part++) {
-        search_part(k, t, part, list);
+        search_near(k, t, part); /* raises the thresholds that let distant blocks be left out */
+        search_distant(k, t, part);
     }
-    list->count = 0;
-    t->stale    = true;
+    t->scratch->near.count = t->scratch->lists[0].count = 0;
+    t->stale                                            = true;
 }
 
 /* ---- the tree ---- */
 
+INLINE void list_children(hc_node_list *list, unsigned found, int x, int y, const float *entries)
+{
+    const int at = list->count;
+    (void)hc_pack_lanes(list->x + at, found, COLUMN_INDEX, 4 * x);
+    (void)hc_pack_floats(list->top + at, found, entries);
+    list->count += hc_pack_lanes(list->y + at, found, ROW_INDEX, 4 * y);
+}
+
+/* Blocks that the tables of all parts cover. Images of a wrapped field may be out of step with
+ * them. */
+INLINE unsigned near_lanes(const tile *t, hc_v across, hc_v down)
+{
+    const hc_v middle = hc_v_set((float)(HC_TILE_SIDE / 2 - 2));
+    const hc_v reach  = hc_v_set(((t->x | t->y) & 3) == 0 ? HC_NEAR_REACH - 1.0F : -1.0F);
+    return hc_v_greater(
+        reach, hc_v_max(hc_v_abs(hc_v_sub(across, middle)), hc_v_abs(hc_v_sub(down, middle))));
+}
+
 /* Sixteen children of one node: those that may hold something join the list of the level below. */
 INLINE void search_node(kind k, const tile *t, int level, int x, int y, hc_node_list *below)
 {
-    const float   *entries = hc_tree_node(&t->pass->tree->levels[level], x, y);
-    const int      side    = 1 << (2 * level);
-    const hc_v     size    = hc_v_set((float)side);
-    const hc_v     column  = hc_v_set((float)(4 * x * side - t->x));
-    const hc_v     row     = hc_v_set((float)(4 * y * side - t->y));
-    const unsigned found   = promising(
-          k, t, &t->hull, hc_v_about_muladd(hc_v_load(COLUMN), size, column),
-          hc_v_about_muladd(hc_v_load(ROW), size, row), hc_v_load(entries), HC_TILE_SIDE, side);
-    const int at = below->count;
-    (void)hc_pack_lanes(below->x + at, found, COLUMN_INDEX, 4 * x);
-    (void)hc_pack_floats(below->top + at, found, entries);
-    below->count += hc_pack_lanes(below->y + at, found, ROW_INDEX, 4 * y);
+    const float *entries = hc_tree_node(&t->pass->tree->levels[level], x, y);
+    const int    side    = 1 << (2 * level);
+    const hc_v   size    = hc_v_set((float)side);
+    const hc_v   across =
+        hc_v_about_muladd(hc_v_load(COLUMN), size, hc_v_set((float)(4 * x * side - t->x)));
+    const hc_v down =
+        hc_v_about_muladd(hc_v_load(ROW), size, hc_v_set((float)(4 * y * side - t->y)));
+    const unsigned found =
+        promising(k, t, &t->hull, across, down, hc_v_load(entries), HC_TILE_SIDE, side);
+    const unsigned near = level == 1 ? near_lanes(t, across, down) : 0;
+    if ((found & near) != 0) {
+        list_children(&t->scratch->near, found & near, x, y, entries);
+    }
+    list_children(below, found & ~near, x, y, entries);
 }
 
 /* Level by level while the lists have room, so that loops are long and their branches predictable;
@@ -444,7 +505,7 @@ INLINE void search_tree(kind k, tile *t)
     lists[root].top[0]                  = t->pass->tree->range;
     while (level <= root) {
         if (level == 0) {
-            search_blocks(k, t, &lists[0]);
+            search_blocks(k, t);
             level = 1;
             continue;
         }
@@ -458,7 +519,7 @@ INLINE void search_tree(kind k, tile *t)
             const int i = done[level]++;
             search_node(k, t, level, list->x[i], list->y[i], below);
         }
-        if (below->count > 0) {
+        if (below->count > 0 || (level == 1 && t->scratch->near.count > 0)) {
             level--;
         } else {
             list->count = done[level] = 0;

@@ -11,19 +11,28 @@
 #define HC_TILE_PARTS 4
 
 /* Blocks whose corner lies up to this many samples from a part's corner take their weights from a
- * table; beyond, weights are computed when needed. A multiple of 4; larger tables gained nothing.
- */
-#define HC_NEAR_REACH 20
+ * table; beyond, weights are computed when needed. A multiple of 4. */
+#define HC_NEAR_REACH 28
 #define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
 #define HC_NEAR_BLOCKS (2 * HC_NEAR_REACH / 4 + 1)
 
+#define HC_NEAR_GROUPS (HC_NEAR_SIDE + 3)
+
 typedef struct hc_near_table {
-    /* [row][column] + HC_NEAR_REACH: weights of a sample at that offset from a part's first sample,
-     * seen from each of the part's samples; 0 for the sample itself and outside the quadrant */
-    _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_SIDE][16];
+    /* Weights of a sample c columns and r rows from a part's first sample, seen from its sixteen
+     * samples: the weight for a sample in row l of the part depends on r - l only, so that the
+     * sixteen weights of neighbouring r overlap in all but one row. [c + HC_NEAR_REACH] holds rows
+     * of four for falling r - l, and hc_near_weights finds the first of the sixteen. 0 for the
+     * sample itself and outside the quadrant. */
+    _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_GROUPS][4];
     /* the largest weight of any sample in the block at 4 * (column - HC_NEAR_REACH / 4) */
     _Alignas(64) float block[HC_NEAR_BLOCKS][HC_NEAR_BLOCKS][16];
 } hc_near_table;
+
+static inline const float *hc_near_weights(const hc_near_table *table, int column, int row)
+{
+    return table->sample[column + HC_NEAR_REACH][HC_NEAR_REACH + 3 - row];
+}
 
 /* One search: a metric, and all directions or one quadrant. */
 typedef struct hc_exact_pass {
@@ -35,9 +44,9 @@ typedef struct hc_exact_pass {
     bool wrap_u, wrap_v;
 } hc_exact_pass;
 
-#define HC_RECENT 8
-#define HC_LIST                                                                                    \
-    240 /* nodes of one level that wait; when full, the levels below are searched first */
+#define HC_RECENT 32
+/* Nodes of one level that wait; when full, the levels below are searched first. */
+#define HC_LIST 240
 
 typedef struct hc_node_list {
     int     count;
@@ -45,10 +54,13 @@ typedef struct hc_node_list {
     float   top[HC_LIST + 32]; /* highest sample below the node, minus base */
 } hc_node_list;
 
+_Static_assert(HC_NEAR_BLOCKS *HC_NEAR_BLOCKS <= HC_LIST, "near blocks must fit a list");
+
 /* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are
  * first guesses for the next tile, which its result does not depend on. */
 typedef struct hc_exact_scratch {
-    hc_node_list lists[HC_TREE_LEVELS_MAX];
+    hc_node_list lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
+    hc_node_list near;
     float        recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
     unsigned     recent_next;
 } hc_exact_scratch;

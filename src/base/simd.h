@@ -6,7 +6,7 @@
  * hc_v_greater       bit i: a > b in lane i
  * hc_v_keep          a where the bit is set, 0 elsewhere
  * hc_v_about_muladd  a * b + c, fused or not: for bounds with a margin, never for results
- * hc_v_about_sqrt    at most the square root of a >= 0, and at least (1 - 2^-9) of it
+ * hc_v_about_rsqrt   at most 1 / the square root of a >= 2^-60, and at least (1 - 2^-9) of it
  * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) -
  * first,
  *                    0, 15) is the piece of a >= 0 on a scale of powers of two
@@ -72,11 +72,9 @@ static inline hc_v hc_v_about_muladd(hc_v a, hc_v b, hc_v c)
     return _mm512_fmadd_ps(a, b, c);
 }
 
-static inline hc_v hc_v_about_sqrt(hc_v a)
+static inline hc_v hc_v_about_rsqrt(hc_v a)
 {
-    const hc_v floor = _mm512_max_ps(a, _mm512_set1_ps(0x1p-60F)); /* no 0 * infinity */
-    const hc_v lower = _mm512_mul_ps(_mm512_rsqrt14_ps(floor), _mm512_set1_ps(1.0F - 0x1p-12F));
-    return _mm512_mul_ps(a, lower);
+    return _mm512_mul_ps(_mm512_rsqrt14_ps(a), _mm512_set1_ps(1.0F - 0x1p-12F));
 }
 
 static inline unsigned hc_v_greater(hc_v a, hc_v b)
@@ -165,16 +163,10 @@ static inline hc_v hc_v_about_muladd(hc_v x, hc_v y, hc_v z)
     return (hc_v){ _mm256_fmadd_ps(x.a, y.a, z.a), _mm256_fmadd_ps(x.b, y.b, z.b) };
 }
 
-static inline __m256 hc_v_sqrt8(__m256 x)
+static inline hc_v hc_v_about_rsqrt(hc_v x)
 {
-    const __m256 floor = _mm256_max_ps(x, _mm256_set1_ps(0x1p-60F)); /* no 0 * infinity */
-    const __m256 lower = _mm256_mul_ps(_mm256_rsqrt_ps(floor), _mm256_set1_ps(1.0F - 0x1p-10F));
-    return _mm256_mul_ps(x, lower);
-}
-
-static inline hc_v hc_v_about_sqrt(hc_v x)
-{
-    return (hc_v){ hc_v_sqrt8(x.a), hc_v_sqrt8(x.b) };
+    const hc_v roots = { _mm256_rsqrt_ps(x.a), _mm256_rsqrt_ps(x.b) };
+    return hc_v_mul(roots, hc_v_set(1.0F - 0x1p-10F));
 }
 
 static inline unsigned hc_v_greater(hc_v x, hc_v y)
@@ -272,7 +264,7 @@ HC_V_QUARTERS(hc_v_max, (hc_v a, hc_v b), hc_choose(a.q[i] > b.q[i], a.q[i], b.q
 HC_V_QUARTERS(hc_v_min, (hc_v a, hc_v b), hc_choose(a.q[i] < b.q[i], a.q[i], b.q[i]))
 HC_V_QUARTERS(hc_v_about_muladd, (hc_v a, hc_v b, hc_v c), a.q[i] * b.q[i] + c.q[i])
 HC_V_QUARTERS(hc_v_sqrt, (hc_v a), hc_sqrt4(a.q[i]))
-HC_V_QUARTERS(hc_v_about_sqrt, (hc_v a), hc_sqrt4(a.q[i]) * (1.0F - 0x1p-12F))
+HC_V_QUARTERS(hc_v_about_rsqrt, (hc_v a), (1.0F - 0x1p-12F) / hc_sqrt4(a.q[i]))
 HC_V_QUARTERS(hc_v_abs, (hc_v a), (hc_quarter)((hc_quarter_bits)a.q[i] & INT32_MAX))
 HC_V_QUARTERS(hc_v_set, (float a), ((hc_quarter){ a, a, a, a }))
 
@@ -343,6 +335,12 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
 }
 
 #endif
+
+/* At most the square root of a >= 0, and at least (1 - 2^-9) of it. */
+static inline hc_v hc_v_about_sqrt(hc_v a)
+{
+    return hc_v_mul(a, hc_v_about_rsqrt(hc_v_max(a, hc_v_set(0x1p-60F)))); /* no 0 * infinity */
+}
 
 /* The kept lanes of sixteen floats, densely; writes like hc_pack_lanes. */
 static inline int hc_pack_floats(float *out, unsigned lanes, const float *values)
