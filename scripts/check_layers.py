@@ -27,6 +27,7 @@ PUBLIC = {
     "version.h": "base",
     "result.h": "base",
     "field.h": "field",
+    "ray.h": "field",
     "maps.h": "maps",
     "bake.h": "bake",
     "trace.h": "trace",
