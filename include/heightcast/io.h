@@ -5,6 +5,7 @@
 #define HEIGHTCAST_IO_H
 
 #include <heightcast/maps.h>
+#include <heightcast/ray.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -81,6 +82,60 @@ HC_API void      hc_free_map(hc_map *map);
 /* Write 8-bit RGB pixels (width * height * 3) as PNG; same rules as hc_save_field. */
 HC_API hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char *path,
                                  const hc_save_options *options, hc_log *log);
+
+/* ---- rays and hits --------------------------------------------------------------------------- */
+
+/* Rows of numbers in and out, piece by piece, so that any number of them passes in little memory:
+ * NPY arrays, C order, files or streams ("-": standard input, standard output; nothing seeks). Each
+ * object serves one thread at a time. */
+
+/* Rays: float32 or float64, shape (n, 8), rows as in hc_ray; float64 is rounded to nearest. Both
+ * byte orders. */
+typedef struct hc_ray_file hc_ray_file;
+
+/* Open a ray file and read its header. Close with hc_ray_file_close, which accepts NULL.
+ *
+ * file    [out] NULL on error
+ * limits  NULL or zero: 2^40 rays; max_samples counts 8 for each ray. Nothing is held in memory, so
+ *         max_bytes does not matter
+ *
+ * A regular file that is too short for its rays is refused here, a stream where it ends. What
+ * follows the last ray is left alone. */
+HC_API hc_result hc_ray_file_open(hc_ray_file **file, const char *path, const hc_limits *limits,
+                                  hc_log *log);
+HC_API uint64_t  hc_ray_file_count(const hc_ray_file *file); /* rays in all */
+/* Read the next rays, `room` at most; *count is how many, 0 only after the last or with no room.
+ * HC_ERROR_CANCELLED: a signal came while a stream had nothing to read. After an error nothing more
+ * can be read. */
+HC_API hc_result hc_ray_file_read(hc_ray_file *file, hc_ray *rays, size_t room, size_t *count,
+                                  hc_log *log);
+HC_API void      hc_ray_file_close(hc_ray_file *file);
+
+/* A row of a hit file: float32 (n, 8). A miss has t = INFINITY, and 0 for all else but the
+ * steps. */
+typedef struct hc_hit_row {
+    float t, u, v, height; /* as in hc_hit                                  */
+    float normal[3];       /* of the patch, in the rays' space              */
+    float steps;           /* exact up to 2^24                              */
+} hc_hit_row;
+
+/* rays  float32 (n, 8), rows of hc_ray
+ * hits  float32 (n, 8), rows of hc_hit_row
+ * any   uint8 (n,): 1 for a ray that hits, 0 for one that does not */
+typedef enum hc_rows { HC_ROWS_RAYS = 0, HC_ROWS_HITS, HC_ROWS_ANY } hc_rows;
+
+typedef struct hc_row_file hc_row_file;
+
+/* Begin a file of `count` rows, which the header says at once. Same rules as hc_save_field, but "-"
+ * is standard output. Every created file must go through hc_row_file_close.
+ * file [out] NULL on error. */
+HC_API hc_result hc_row_file_create(hc_row_file **file, const char *path, hc_rows rows,
+                                    uint64_t count, const hc_save_options *options, hc_log *log);
+/* Append rows: hc_ray, hc_hit_row or uint8_t. After an error the file can only be closed. */
+HC_API hc_result hc_row_file_append(hc_row_file *file, const void *rows, size_t count, hc_log *log);
+/* Give the file its name if `result` is HC_OK, all rows are there and all were written; else remove
+ * it. Returns the first error: `result` or its own. Accepts NULL. */
+HC_API hc_result hc_row_file_close(hc_row_file *file, hc_result result, hc_log *log);
 
 /* ---- what can be written --------------------------------------------------------------------- */
 
