@@ -10,6 +10,11 @@
  * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) -
  * first,
  *                    0, 15) is the piece of a >= 0 on a scale of powers of two
+ * hc_i               sixteen integers of 32 bits; shifts by 0 .. 31, to the right without the sign
+ * hc_v_pick          a where the bit is set, b elsewhere; hc_i_pick likewise
+ * hc_i_from_v        towards zero
+ * hc_gather_pairs    two words from base + 8 * index where the bit is set, anything elsewhere;
+ *                    hc_gather_neighbours the same from base + 4 * index
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
  * if
  *                    fewer are set; returns how many are */
@@ -17,6 +22,7 @@
 #define HC_BASE_SIMD_H
 
 #include <math.h>
+#include <stddef.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -103,6 +109,97 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
     _mm512_storeu_si512(out, _mm512_maskz_compress_epi32((__mmask16)lanes, all));
     return __builtin_popcount(lanes);
 }
+
+typedef __m512i hc_i;
+
+static inline hc_i hc_i_set(int32_t a)
+{
+    return _mm512_set1_epi32(a);
+}
+
+static inline hc_i hc_i_load(const int32_t *p)
+{
+    return _mm512_loadu_si512(p);
+}
+
+static inline void hc_i_store(int32_t *p, hc_i a)
+{
+    _mm512_storeu_si512(p, a);
+}
+
+#define HC_I_BINARY(name, operation)                                                               \
+    static inline hc_i name(hc_i a, hc_i b)                                                        \
+    {                                                                                              \
+        return operation(a, b);                                                                    \
+    }
+HC_I_BINARY(hc_i_add, _mm512_add_epi32)
+HC_I_BINARY(hc_i_mul, _mm512_mullo_epi32)
+HC_I_BINARY(hc_i_min, _mm512_min_epi32)
+HC_I_BINARY(hc_i_max, _mm512_max_epi32)
+HC_I_BINARY(hc_i_and, _mm512_and_si512)
+HC_I_BINARY(hc_i_or, _mm512_or_si512)
+HC_I_BINARY(hc_i_xor, _mm512_xor_si512)
+HC_I_BINARY(hc_i_left, _mm512_sllv_epi32)
+HC_I_BINARY(hc_i_right, _mm512_srlv_epi32)
+
+static inline hc_i hc_i_from_v(hc_v a)
+{
+    return _mm512_cvttps_epi32(a);
+}
+
+static inline hc_v hc_v_from_i(hc_i a)
+{
+    return _mm512_cvtepi32_ps(a);
+}
+
+static inline hc_v hc_v_of_bits(hc_i a)
+{
+    return _mm512_castsi512_ps(a);
+}
+
+static inline hc_v hc_v_pick(unsigned lanes, hc_v a, hc_v b)
+{
+    return _mm512_mask_mov_ps(b, (__mmask16)lanes, a);
+}
+
+static inline hc_i hc_i_pick(unsigned lanes, hc_i a, hc_i b)
+{
+    return _mm512_mask_mov_epi32(b, (__mmask16)lanes, a);
+}
+
+static inline unsigned hc_i_differ(hc_i a, hc_i b)
+{
+    return _mm512_cmpneq_epi32_mask(a, b);
+}
+
+/* table[index] of a table of sixteen. */
+static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
+{
+    return _mm512_permutexvar_epi32(index, _mm512_loadu_si512(table));
+}
+
+static inline void hc_i_deal(hc_i *first, hc_i *second, __m512i low, __m512i high)
+{
+    const __m512i even =
+        _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
+    const __m512i odd = _mm512_add_epi32(even, _mm512_set1_epi32(1));
+    *first            = _mm512_permutex2var_epi32(low, even, high);
+    *second           = _mm512_permutex2var_epi32(low, odd, high);
+}
+
+#define HC_I_GATHER(name, scale)                                                                   \
+    static inline void name(hc_i *first, hc_i *second, const void *base, hc_i index,               \
+                            unsigned lanes)                                                        \
+    {                                                                                              \
+        const __m512i zero = _mm512_setzero_si512();                                               \
+        const __m512i low  = _mm512_mask_i32gather_epi64(                                          \
+             zero, (__mmask8)lanes, _mm512_castsi512_si256(index), base, scale);                   \
+        const __m512i high = _mm512_mask_i32gather_epi64(                                          \
+            zero, (__mmask8)(lanes >> 8), _mm512_extracti64x4_epi64(index, 1), base, scale);       \
+        hc_i_deal(first, second, low, high);                                                       \
+    }
+HC_I_GATHER(hc_gather_pairs, 8)
+HC_I_GATHER(hc_gather_neighbours, 4)
 
 #elif defined(HC_SIMD_AVX2)
 
@@ -227,6 +324,122 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
     return n + hc_pack8(out + n, lanes >> 8, high);
 }
 
+typedef struct hc_i {
+    __m256i a, b;
+} hc_i;
+
+static inline hc_i hc_i_set(int32_t a)
+{
+    return (hc_i){ _mm256_set1_epi32(a), _mm256_set1_epi32(a) };
+}
+
+static inline hc_i hc_i_load(const int32_t *p)
+{
+    const __m256i *from = (const __m256i *)(const void *)p;
+    return (hc_i){ _mm256_loadu_si256(from), _mm256_loadu_si256(from + 1) };
+}
+
+static inline void hc_i_store(int32_t *p, hc_i x)
+{
+    _mm256_storeu_si256((__m256i *)(void *)p, x.a);
+    _mm256_storeu_si256((__m256i *)(void *)(p + 8), x.b);
+}
+
+#define HC_I_BINARY(name, operation)                                                               \
+    static inline hc_i name(hc_i x, hc_i y)                                                        \
+    {                                                                                              \
+        return (hc_i){ operation(x.a, y.a), operation(x.b, y.b) };                                 \
+    }
+HC_I_BINARY(hc_i_add, _mm256_add_epi32)
+HC_I_BINARY(hc_i_mul, _mm256_mullo_epi32)
+HC_I_BINARY(hc_i_min, _mm256_min_epi32)
+HC_I_BINARY(hc_i_max, _mm256_max_epi32)
+HC_I_BINARY(hc_i_and, _mm256_and_si256)
+HC_I_BINARY(hc_i_or, _mm256_or_si256)
+HC_I_BINARY(hc_i_xor, _mm256_xor_si256)
+HC_I_BINARY(hc_i_left, _mm256_sllv_epi32)
+HC_I_BINARY(hc_i_right, _mm256_srlv_epi32)
+
+static inline hc_i hc_i_from_v(hc_v x)
+{
+    return (hc_i){ _mm256_cvttps_epi32(x.a), _mm256_cvttps_epi32(x.b) };
+}
+
+static inline hc_v hc_v_from_i(hc_i x)
+{
+    return (hc_v){ _mm256_cvtepi32_ps(x.a), _mm256_cvtepi32_ps(x.b) };
+}
+
+static inline hc_v hc_v_of_bits(hc_i x)
+{
+    return (hc_v){ _mm256_castsi256_ps(x.a), _mm256_castsi256_ps(x.b) };
+}
+
+static inline __m256i hc_i_mask8(unsigned lanes)
+{
+    const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    return _mm256_cmpeq_epi32(_mm256_and_si256(_mm256_set1_epi32((int)lanes), bit), bit);
+}
+
+static inline hc_v hc_v_pick(unsigned lanes, hc_v x, hc_v y)
+{
+    return (hc_v){ _mm256_blendv_ps(y.a, x.a, _mm256_castsi256_ps(hc_i_mask8(lanes))),
+                   _mm256_blendv_ps(y.b, x.b, _mm256_castsi256_ps(hc_i_mask8(lanes >> 8))) };
+}
+
+static inline hc_i hc_i_pick(unsigned lanes, hc_i x, hc_i y)
+{
+    return (hc_i){ _mm256_blendv_epi8(y.a, x.a, hc_i_mask8(lanes)),
+                   _mm256_blendv_epi8(y.b, x.b, hc_i_mask8(lanes >> 8)) };
+}
+
+static inline unsigned hc_i_differ(hc_i x, hc_i y)
+{
+    const __m256 low  = _mm256_castsi256_ps(_mm256_cmpeq_epi32(x.a, y.a));
+    const __m256 high = _mm256_castsi256_ps(_mm256_cmpeq_epi32(x.b, y.b));
+    return ((unsigned)_mm256_movemask_ps(low) | (unsigned)_mm256_movemask_ps(high) << 8) ^ 0xffffU;
+}
+
+/* table[index] of a table of sixteen. */
+static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
+{
+    return (hc_i){ _mm256_i32gather_epi32(table, index.a, 4),
+                   _mm256_i32gather_epi32(table, index.b, 4) };
+}
+
+static inline __m256i hc_i_deal8(__m256i low, __m256i high, int odd)
+{
+    const __m256i order = odd != 0 ? _mm256_setr_epi32(1, 3, 5, 7, 1, 3, 5, 7)
+                                   : _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6);
+    return _mm256_blend_epi32(_mm256_permutevar8x32_epi32(low, order),
+                              _mm256_permutevar8x32_epi32(high, order), 0xf0);
+}
+
+static inline __m256i hc_i_wide4(unsigned lanes)
+{
+    const __m256i bit = _mm256_setr_epi64x(1, 2, 4, 8);
+    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)lanes), bit), bit);
+}
+
+#define HC_I_GATHER(name, scale)                                                                   \
+    static inline __m256i name##4(const void *base, __m128i index, unsigned lanes)                 \
+    {                                                                                              \
+        return _mm256_mask_i32gather_epi64(_mm256_setzero_si256(), (const long long *)base, index, \
+                                           hc_i_wide4(lanes), scale);                              \
+    }                                                                                              \
+    static inline void name(hc_i *first, hc_i *second, const void *base, hc_i index,               \
+                            unsigned lanes)                                                        \
+    {                                                                                              \
+        const __m256i q0 = name##4(base, _mm256_castsi256_si128(index.a), lanes);                  \
+        const __m256i q1 = name##4(base, _mm256_extracti128_si256(index.a, 1), lanes >> 4);        \
+        const __m256i q2 = name##4(base, _mm256_castsi256_si128(index.b), lanes >> 8);             \
+        const __m256i q3 = name##4(base, _mm256_extracti128_si256(index.b, 1), lanes >> 12);       \
+        *first           = (hc_i){ hc_i_deal8(q0, q1, 0), hc_i_deal8(q2, q3, 0) };                 \
+        *second          = (hc_i){ hc_i_deal8(q0, q1, 1), hc_i_deal8(q2, q3, 1) };                 \
+    }
+HC_I_GATHER(hc_gather_pairs, 8)
+HC_I_GATHER(hc_gather_neighbours, 4)
+
 #else
 
 /* The compiler's own vectors of four; it finds the machine's, or does without. */
@@ -333,6 +546,97 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
     }
     return count;
 }
+
+typedef struct hc_i {
+    int32_t lane[HC_LANES];
+} hc_i;
+
+#define HC_I_LANES(name, parameters, expression)                                                   \
+    static inline hc_i name parameters                                                             \
+    {                                                                                              \
+        hc_i r;                                                                                    \
+        for (int i = 0; i < HC_LANES; i++) {                                                       \
+            r.lane[i] = expression;                                                                \
+        }                                                                                          \
+        return r;                                                                                  \
+    }
+HC_I_LANES(hc_i_set, (int32_t a), a)
+HC_I_LANES(hc_i_load, (const int32_t *p), p[i])
+HC_I_LANES(hc_i_add, (hc_i a, hc_i b), (int32_t)((uint32_t)a.lane[i] + (uint32_t)b.lane[i]))
+HC_I_LANES(hc_i_mul, (hc_i a, hc_i b), (int32_t)((uint32_t)a.lane[i] * (uint32_t)b.lane[i]))
+HC_I_LANES(hc_i_min, (hc_i a, hc_i b), a.lane[i] < b.lane[i] ? a.lane[i] : b.lane[i])
+HC_I_LANES(hc_i_max, (hc_i a, hc_i b), a.lane[i] > b.lane[i] ? a.lane[i] : b.lane[i])
+HC_I_LANES(hc_i_and, (hc_i a, hc_i b), a.lane[i] & b.lane[i])
+HC_I_LANES(hc_i_or, (hc_i a, hc_i b), a.lane[i] | b.lane[i])
+HC_I_LANES(hc_i_xor, (hc_i a, hc_i b), a.lane[i] ^ b.lane[i])
+HC_I_LANES(hc_i_left, (hc_i a, hc_i b), (int32_t)((uint32_t)a.lane[i] << b.lane[i]))
+HC_I_LANES(hc_i_right, (hc_i a, hc_i b), (int32_t)((uint32_t)a.lane[i] >> b.lane[i]))
+HC_I_LANES(hc_i_lookup, (const int32_t *table, hc_i index), table[index.lane[i]])
+HC_I_LANES(hc_i_pick, (unsigned lanes, hc_i a, hc_i b),
+           (lanes >> i & 1) != 0 ? a.lane[i] : b.lane[i])
+
+static inline void hc_i_store(int32_t *p, hc_i a)
+{
+    memcpy(p, &a, sizeof a);
+}
+
+/* What does not fit an integer becomes the least one, as the vector machines do it. */
+static inline hc_i hc_i_from_v(hc_v a)
+{
+    hc_i  r;
+    float from[HC_LANES];
+    hc_v_store(from, a);
+    for (int i = 0; i < HC_LANES; i++) {
+        r.lane[i] = fabsf(from[i]) < 0x1p31F ? (int32_t)from[i] : INT32_MIN;
+    }
+    return r;
+}
+
+static inline hc_v hc_v_from_i(hc_i a)
+{
+    return hc_v_from_ints(a.lane);
+}
+
+static inline hc_v hc_v_of_bits(hc_i a)
+{
+    hc_v r;
+    memcpy(&r, &a, sizeof r);
+    return r;
+}
+
+static inline hc_v hc_v_pick(unsigned lanes, hc_v a, hc_v b)
+{
+    hc_i first, second;
+    memcpy(&first, &a, sizeof a);
+    memcpy(&second, &b, sizeof b);
+    return hc_v_of_bits(hc_i_pick(lanes, first, second));
+}
+
+static inline unsigned hc_i_differ(hc_i a, hc_i b)
+{
+    unsigned lanes = 0;
+    for (int i = 0; i < HC_LANES; i++) {
+        lanes |= (unsigned)(a.lane[i] != b.lane[i]) << i;
+    }
+    return lanes;
+}
+
+#define HC_I_GATHER(name, scale)                                                                   \
+    static inline void name(hc_i *first, hc_i *second, const void *base, hc_i index,               \
+                            unsigned lanes)                                                        \
+    {                                                                                              \
+        for (int i = 0; i < HC_LANES; i++) {                                                       \
+            int32_t pair[2] = { 0, 0 };                                                            \
+            if ((lanes >> i & 1) != 0) {                                                           \
+                memcpy(pair, (const char *)base + (ptrdiff_t)index.lane[i] * (scale),              \
+                       sizeof pair);                                                               \
+            }                                                                                      \
+            first->lane[i]  = pair[0];                                                             \
+            second->lane[i] = pair[1];                                                             \
+        }                                                                                          \
+    }
+HC_I_GATHER(hc_gather_pairs, 8)
+HC_I_GATHER(hc_gather_neighbours, 4)
 
 #endif
 

@@ -1,0 +1,192 @@
+/* Making the fast caster: sizes, coordinates, the choice of kernel. */
+#define _DEFAULT_SOURCE /* madvise */
+#include "fast.h"
+
+#include "fast_data.h"
+
+#include "base/fail.h"
+#include "base/parallel.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__linux__)
+#include <sys/mman.h>
+#endif
+
+/* The coarsest level has at most so many blocks a side: the diagonals that fast_build.c looks at
+ * reach across it. */
+enum { COARSEST = 6, PAGE = 1 << 21 };
+
+typedef struct layout {
+    size_t heights, blocks; /* elements */
+} layout;
+
+static hc_fast_axis make_axis(int samples, double period, bool wrapped, bool posts,
+                              const hc_trace_options *options, double spacing, double offset)
+{
+    const bool   steps = options->surface == HC_SURFACE_STEPS;
+    const double zero  = (posts ? 0.0 : -0.5) + (steps ? 0.5 : wrapped ? 0.0 : 1.0);
+    hc_fast_axis axis  = { .cells   = wrapped || (steps && !(posts && samples == 1)) ? samples
+                                                                                     : samples + 1,
+                           .first   = wrapped || steps ? 0 : -1,
+                           .samples = samples,
+                           .wrapped = wrapped,
+                           .low     = zero,
+                           .high    = zero + period,
+                           .scale   = period,
+                           .shift   = zero,
+                           .step    = 1.0 / period,
+                           .zero    = zero };
+    if (options->placement.scale_z > 0.0) {
+        const double first = zero + (posts ? 0.0 : 0.5); /* sample 0 */
+        axis.scale         = 1.0 / spacing;
+        axis.shift         = first - offset / spacing;
+    }
+    return axis;
+}
+
+static void set_axes(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
+{
+    const hc_placement *place = &options->placement;
+    const bool          posts = field->registration == HC_GRID;
+    fast->x                   = make_axis(field->width, 1.0 / hc_field_step_u(field),
+                                          ((unsigned)field->wrap & HC_WRAP_U) != 0, posts, options, place->spacing_x,
+                                          place->offset[0]);
+    fast->y                   = make_axis(field->height, 1.0 / hc_field_step_v(field),
+                                          ((unsigned)field->wrap & HC_WRAP_V) != 0, posts, options, place->spacing_y,
+                                          place->offset[1]);
+    fast->scale_z             = place->scale_z > 0.0 ? 1.0 / place->scale_z : 1.0;
+    fast->shift_z             = place->scale_z > 0.0 ? -place->offset[2] / place->scale_z : 0.0;
+}
+
+/* Everything but the memory. */
+static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
+{
+    *fast = (hc_fast){ .steps      = options->surface == HC_SURFACE_STEPS,
+                       .open_sides = options->open_sides };
+    set_axes(fast, field, options);
+    const int side   = fast->x.cells > fast->y.cells ? fast->x.cells : fast->y.cells;
+    size_t    blocks = 0;
+    int       width  = 1;
+    do {
+        const int k     = fast->levels++;
+        width           = 1 << (HC_FAST_RATIO_BITS * k);
+        const int wide  = (fast->x.cells + width - 1) / width;
+        const int high  = (fast->y.cells + width - 1) / width;
+        fast->stride[k] = wide;
+        fast->start[k]  = (int32_t)blocks;
+        blocks += (size_t)wide * (size_t)high;
+    } while ((side + width - 1) / width > COARSEST);
+    fast->mirror_x       = (fast->x.cells + width - 1) / width * width;
+    fast->mirror_y       = (fast->y.cells + width - 1) / width * width;
+    const int mirror     = fast->mirror_x > fast->mirror_y ? fast->mirror_x : fast->mirror_y;
+    fast->blur           = 0x1p-21F * (float)mirror;
+    fast->stride_heights = fast->x.cells + 1;
+    return (layout){ (size_t)fast->stride_heights * (size_t)(fast->y.cells + 1) + 1, blocks };
+}
+
+static size_t pages(size_t bytes)
+{
+    const size_t unit = bytes >= 4 * (size_t)PAGE ? PAGE : 64;
+    return (bytes + unit - 1) / unit * unit;
+}
+
+/* Large pages, where there are: rays jump about, and each small page costs a look-up. */
+static void *take(size_t bytes)
+{
+    const size_t unit  = bytes >= 4 * (size_t)PAGE ? PAGE : 64;
+    void        *taken = aligned_alloc(unit, pages(bytes));
+#if defined(__linux__)
+    if (taken != NULL && unit == PAGE) {
+        (void)madvise(taken, pages(bytes), MADV_HUGEPAGE);
+    }
+#endif
+    return taken;
+}
+
+static float highest_of(const hc_field *field)
+{
+    const size_t count = (size_t)field->width * (size_t)field->height;
+    float        most  = 0.0F;
+    for (size_t i = 0; i < count; i++) {
+        most = field->heights[i] > most ? field->heights[i] : most;
+    }
+    return most;
+}
+
+size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
+{
+    hc_fast      fast;
+    const layout sizes = plan(&fast, field, options);
+    return sizeof fast + pages(sizes.heights * sizeof(float))
+           + pages(sizes.blocks * sizeof(hc_fast_block));
+}
+
+hc_result hc_fast_create(hc_fast **fast, const hc_field *field, const hc_trace_options *options,
+                         hc_log *log)
+{
+    hc_fast *made = malloc(sizeof *made);
+    if (made == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
+    }
+    const layout sizes = plan(made, field, options);
+    made->isa          = hc_isa_resolve(options->isa);
+    made->highest      = (double)highest_of(field);
+    made->heights      = take(sizes.heights * sizeof(float));
+    made->blocks       = take(sizes.blocks * sizeof(hc_fast_block));
+    hc_result result   = made->heights != NULL && made->blocks != NULL
+                             ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)
+                             : hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
+    if (result != HC_OK) {
+        hc_fast_destroy(made);
+        return result;
+    }
+    *fast = made;
+    return HC_OK;
+}
+
+void hc_fast_destroy(hc_fast *fast)
+{
+    if (fast != NULL) {
+        free(fast->heights);
+        free(fast->blocks);
+        free(fast);
+    }
+}
+
+/* What is decided is decided in double precision: rounding of rays 2^-30 of the field's sides away
+ * from it, and what far origins add. The patch is solved in cell coordinates, so a ray is as good as
+ * one moved by its rounding there. */
+void hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach)
+{
+    const int side = fast->x.cells > fast->y.cells ? fast->x.cells : fast->y.cells;
+    *rise          = 0x1p-30;
+    *reach         = 0x1p-30 * side;
+}
+
+static hc_fast_march *kernel_of(const hc_fast *fast)
+{
+#if defined(__x86_64__) && !defined(HC_FORCE_SCALAR)
+    if (fast->isa == HC_ISA_AVX512) {
+        return hc_fast_march_avx512;
+    }
+    if (fast->isa == HC_ISA_AVX2) {
+        return hc_fast_march_avx2;
+    }
+#else
+    (void)fast;
+#endif
+    return hc_fast_march_scalar;
+}
+
+void hc_fast_nearest(const hc_fast *fast, hc_hit *hits, const hc_ray *rays, size_t count)
+{
+    kernel_of(fast)(fast, (hc_fast_answer){ .hits = hits }, rays, count);
+}
+
+void hc_fast_any(const hc_fast *fast, uint8_t *any, const hc_ray *rays, size_t count)
+{
+    kernel_of(fast)(fast, (hc_fast_answer){ .any = any }, rays, count);
+}

@@ -1,0 +1,314 @@
+/* Blocks of the fast caster: bounds and quadrant slopes on every level, in O(N) after the pyramid.
+ *
+ * A diagonal of a quadrant is the set of blocks i to the side and j ahead with i + j the same; the
+ * maximum over a diagonal, over its least distance, bounds the slope of what stands on it. Ten
+ * diagonals are looked at on each level, what lies beyond them is the next level's, corrected for
+ * the difference of the tops. docs/algorithms.md has the distances. */
+#include "fast_data.h"
+
+#include "base/fail.h"
+#include "base/parallel.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { DIAGONALS = 10, TILE = 64, RATIO = 1 << HC_FAST_RATIO_BITS };
+
+/* Least height that marching keeps above a block: more than its rounding [height]. */
+static const float CLEARANCE = 0x1p-20F;
+
+/* A level while it is made. Tops stand in a frame of zeros DIAGONALS wide, and a tile more at the
+ * right. */
+typedef struct level {
+    int            width, height, side; /* blocks; cells a side */
+    size_t         pitch;
+    float         *frame, *tops;
+    float         *far; /* four slopes a block: of what lies beyond the first diagonal */
+    hc_fast_block *blocks;
+} level;
+
+typedef struct builder {
+    const hc_fast *fast;
+    const float   *heights; /* of the field */
+    int            field_width;
+    level          levels[HC_FAST_LEVELS];
+    int            current;
+} builder;
+
+static float larger(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+static int sample_of(const hc_fast_axis *axis, int corner)
+{
+    const int sample = corner + axis->first;
+    if (axis->wrapped) {
+        return sample % axis->samples;
+    }
+    return sample < 0 ? 0 : sample < axis->samples ? sample : axis->samples - 1;
+}
+
+static void copy_heights(void *context, int y, int worker)
+{
+    const builder *b    = context;
+    const hc_fast *fast = b->fast;
+    const float   *from = b->heights + (size_t)sample_of(&fast->y, y) * (size_t)b->field_width;
+    float         *to   = fast->heights + (size_t)y * (size_t)fast->stride_heights;
+    (void)worker;
+    for (int x = 0; x <= fast->x.cells; x++) {
+        to[x] = from[sample_of(&fast->x, x)];
+    }
+}
+
+static void top_cells(void *context, int y, int worker)
+{
+    const builder *b     = context;
+    const hc_fast *fast  = b->fast;
+    const float   *upper = fast->heights + (size_t)y * (size_t)fast->stride_heights;
+    const float   *lower = fast->steps ? upper : upper + fast->stride_heights;
+    const int      side  = fast->steps ? 0 : 1;
+    float         *tops  = b->levels[0].tops + (size_t)y * b->levels[0].pitch;
+    (void)worker;
+    for (int x = 0; x < fast->x.cells; x++) {
+        tops[x] = larger(larger(upper[x], upper[x + side]), larger(lower[x], lower[x + side]));
+    }
+}
+
+static void top_blocks(void *context, int y, int worker)
+{
+    const builder *b      = context;
+    const level   *fine   = &b->levels[b->current - 1];
+    const level   *coarse = &b->levels[b->current];
+    float         *tops   = coarse->tops + (size_t)y * coarse->pitch;
+    const int      rows   = fine->height - y * RATIO < RATIO ? fine->height - y * RATIO : RATIO;
+    (void)worker;
+    for (int x = 0; x < coarse->width; x++) {
+        float top = 0.0F;
+        for (int j = 0; j < rows; j++) {
+            const float *row = fine->tops + (size_t)(y * RATIO + j) * fine->pitch + x * RATIO;
+            top              = larger(top, larger(larger(row[0], row[1]), larger(row[2], row[3])));
+        }
+        tops[x] = top;
+    }
+}
+
+/* Highest on diagonal m of each of TILE blocks: tops[x + dx * i], i columns and m - i rows away. */
+static void diagonal_top(float *highest, const float *tops, ptrdiff_t dx, ptrdiff_t dy, int m)
+{
+    const float *row = tops + dy * m;
+    for (int x = 0; x < TILE; x++) {
+        highest[x] = row[x];
+    }
+    for (int i = 1; i <= m; i++) {
+        row = tops + dx * i + dy * (m - i);
+        for (int x = 0; x < TILE; x++) {
+            highest[x] = larger(highest[x], row[x]);
+        }
+    }
+}
+
+/* Steepest slope from each of TILE blocks to diagonals first .. DIAGONALS; a diagonal of blocks as
+ * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. */
+static void near_slopes(float *slopes, const float *tops, ptrdiff_t dx, ptrdiff_t dy, int side,
+                        int first, float least)
+{
+    float highest[TILE];
+    memset(slopes, 0, TILE * sizeof *slopes);
+    for (int m = first; m <= DIAGONALS; m++) {
+        const float distance = larger((float)((m - 2) * side + 2), least);
+        const float weight   = 1.0F / distance;
+        diagonal_top(highest, tops, dx, dy, m);
+        for (int x = 0; x < TILE; x++) {
+            slopes[x] = larger(slopes[x], (highest[x] - tops[x]) * weight);
+        }
+    }
+}
+
+/* What lies beyond the diagonals, from the next level: its slope there, steeper by the difference
+ * of the tops over the least distance. */
+static void add_far(float *slopes, const builder *b, int k, int x, int y, int quadrant, int count)
+{
+    if (k + 1 == b->fast->levels) {
+        return;
+    }
+    const level *fine   = &b->levels[k];
+    const level *coarse = &b->levels[k + 1];
+    const float  weight = 1.0F / (float)((DIAGONALS - 1) * fine->side + 2);
+    const float *tops   = fine->tops + (size_t)y * fine->pitch;
+    const float *above  = coarse->tops + (size_t)(y / RATIO) * coarse->pitch;
+    const float *far    = coarse->far + (size_t)(y / RATIO) * (size_t)coarse->width * 4;
+    for (int i = 0; i < count; i++) {
+        const int   parent = (x + i) / RATIO;
+        const float slope  = far[4 * parent + quadrant] + (above[parent] - tops[x + i]) * weight;
+        slopes[i]          = larger(slopes[i], slope);
+    }
+}
+
+static int tile_count(const level *l, int x)
+{
+    return l->width - x < TILE ? l->width - x : TILE;
+}
+
+static void far_row(void *context, int y, int worker)
+{
+    const builder *b     = context;
+    const level   *l     = &b->levels[b->current];
+    const float    least = 0.75F * (float)l->side + 2.0F;
+    float          slopes[TILE];
+    (void)worker;
+    for (int x = 0; x < l->width; x += TILE) {
+        const float *tops  = l->tops + (size_t)y * l->pitch + x;
+        float       *out   = l->far + ((size_t)y * (size_t)l->width + (size_t)x) * 4;
+        const int    count = tile_count(l, x);
+        for (int q = 0; q < 4; q++) {
+            const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
+            const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
+            near_slopes(slopes, tops, dx, dy, l->side, 2, least);
+            add_far(slopes, b, b->current, x, y, q, count);
+            for (int i = 0; i < count; i++) {
+                out[4 * i + q] = slopes[i];
+            }
+        }
+    }
+}
+
+static float decode(uint8_t code)
+{
+    const uint32_t bits = ((uint32_t)code << HC_FAST_SLOPE_SHIFT) + (uint32_t)HC_FAST_SLOPE_BIAS;
+    float          slope;
+    memcpy(&slope, &bits, sizeof slope);
+    return slope;
+}
+
+/* The least code whose slope is not below. */
+static uint8_t encode(float slope)
+{
+    const float padded = slope * (1.0F + 0x1p-12F);
+    int32_t     bits;
+    memcpy(&bits, &padded, sizeof bits);
+    const int32_t above = bits - HC_FAST_SLOPE_BIAS + (1 << HC_FAST_SLOPE_SHIFT) - 1;
+    const int32_t code  = above < 0 ? 0 : above >> HC_FAST_SLOPE_SHIFT;
+    return (uint8_t)(code > 255 ? 255 : code);
+}
+
+/* Steepest of the blocks one level below that stand at the two sides facing the quadrant. */
+static float child_slope(const builder *b, int k, int x, int y, int quadrant)
+{
+    const level *fine   = &b->levels[k - 1];
+    const int    right  = (x + 1) * RATIO < fine->width ? (x + 1) * RATIO : fine->width;
+    const int    below  = (y + 1) * RATIO < fine->height ? (y + 1) * RATIO : fine->height;
+    const int    edge_x = (quadrant & 1) != 0 ? x * RATIO : right - 1;
+    const int    edge_y = (quadrant & 2) != 0 ? y * RATIO : below - 1;
+    uint8_t      code   = 0;
+    for (int i = x * RATIO; i < right; i++) {
+        const uint8_t c =
+            fine->blocks[(size_t)edge_y * (size_t)fine->width + (size_t)i].slopes[quadrant];
+        code = c > code ? c : code;
+    }
+    for (int j = y * RATIO; j < below; j++) {
+        const uint8_t c =
+            fine->blocks[(size_t)j * (size_t)fine->width + (size_t)edge_x].slopes[quadrant];
+        code = c > code ? c : code;
+    }
+    return decode(code);
+}
+
+/* A ray may be up to two blurs from where it is marched: what stands there is seen with this weight
+ * from any quadrant. */
+static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4])
+{
+    const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
+    const float blur     = b->fast->blur;
+    block->top           = top + 4.0F * blur * steepest + CLEARANCE;
+    for (int q = 0; q < 4; q++) {
+        block->slopes[q] = encode(slopes[q] + 2.0F * blur * steepest);
+    }
+}
+
+static void block_row(void *context, int y, int worker)
+{
+    const builder *b               = context;
+    const int      k               = b->current;
+    const level   *l               = &b->levels[k];
+    float          slopes[4][TILE] = { { 0.0F } };
+    (void)worker;
+    for (int x = 0; x < l->width; x += TILE) {
+        const float *tops  = l->tops + (size_t)y * l->pitch + x;
+        const int    count = tile_count(l, x);
+        for (int q = 0; q < 4 && !b->fast->steps; q++) {
+            const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
+            const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
+            near_slopes(slopes[q], tops, dx, dy, l->side, 1, 1.0F);
+            add_far(slopes[q], b, k, x, y, q, count);
+        }
+        for (int i = 0; i < count; i++) {
+            float slope[4];
+            for (int q = 0; q < 4; q++) {
+                const float child = k == 0 ? slopes[q][i] : child_slope(b, k, x + i, y, q);
+                slope[q]          = child < slopes[q][i] ? child : slopes[q][i];
+            }
+            store_block(b, &l->blocks[(size_t)y * (size_t)l->width + (size_t)(x + i)], tops[i],
+                        slope);
+        }
+    }
+}
+
+static hc_result run(builder *b, int k, hc_parallel_body body, int rows, int threads, hc_log *log)
+{
+    b->current = k;
+    return hc_parallel_for(rows, b->fast->levels > 4 ? threads : 1, body, b, (hc_progress){ 0 },
+                           log);
+}
+
+static void fill(builder *b, int threads, hc_log *log)
+{
+    const int levels = b->fast->levels;
+    (void)run(b, 0, copy_heights, b->fast->y.cells + 1, threads, log);
+    (void)run(b, 0, top_cells, b->fast->y.cells, threads, log);
+    for (int k = 1; k < levels; k++) {
+        (void)run(b, k, top_blocks, b->levels[k].height, threads, log);
+    }
+    for (int k = levels - 1; k > 0 && !b->fast->steps; k--) {
+        (void)run(b, k, far_row, b->levels[k].height, threads, log);
+    }
+    for (int k = 0; k < levels; k++) {
+        (void)run(b, k, block_row, b->levels[k].height, threads, log);
+    }
+}
+
+static bool take_level(level *l, const hc_fast *fast, int k)
+{
+    const int side = 1 << (HC_FAST_RATIO_BITS * k);
+    l->side        = side;
+    l->width       = (fast->x.cells + side - 1) / side;
+    l->height      = (fast->y.cells + side - 1) / side;
+    l->blocks      = fast->blocks + fast->start[k];
+    l->pitch       = (size_t)l->width + 2 * DIAGONALS + TILE;
+    l->frame       = calloc(l->pitch * (size_t)(l->height + 2 * DIAGONALS + 1), sizeof(float));
+    if (k > 0) {
+        l->far = malloc((size_t)l->width * (size_t)l->height * 4 * sizeof(float));
+    }
+    if (l->frame == NULL) {
+        return false;
+    }
+    l->tops = l->frame + DIAGONALS * l->pitch + DIAGONALS;
+    return k == 0 || l->far != NULL;
+}
+
+hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log)
+{
+    builder b     = { .fast = fast, .heights = field->heights, .field_width = field->width };
+    bool    taken = true;
+    for (int k = 0; k < fast->levels; k++) {
+        taken = take_level(&b.levels[k], fast, k) && taken;
+    }
+    if (taken) {
+        fill(&b, threads, log);
+    }
+    for (int k = 0; k < fast->levels; k++) {
+        free(b.levels[k].frame);
+        free(b.levels[k].far);
+    }
+    return taken ? HC_OK : hc_fail(log, HC_ERROR_MEMORY, "no memory for building a caster");
+}

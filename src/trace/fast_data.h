@@ -1,0 +1,77 @@
+/* What the fast caster holds, and the ray as its parts see it. docs/algorithms.md, "Fast rays", has
+ * the proofs. */
+#ifndef HC_TRACE_FAST_DATA_H
+#define HC_TRACE_FAST_DATA_H
+
+#include "fast.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* Blocks of level k are 4^k cells wide: 4^10 is the widest field. */
+enum { HC_FAST_LEVELS = 11, HC_FAST_RATIO_BITS = 2 };
+
+/* Slopes are floats of five bits exponent and three bits mantissa, from 2^-30 to 3.75. */
+enum { HC_FAST_SLOPE_SHIFT = 20, HC_FAST_SLOPE_BIAS = 97 << 23 };
+
+/* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,
+ * -u +v, +u -v, -u -v), within which the surface beyond the block stays below a cone around it. */
+typedef struct hc_fast_block {
+    float   top;
+    uint8_t slopes[4];
+} hc_fast_block;
+
+/* One axis of the cell grid: cell i lies between coordinates i and i + 1. */
+typedef struct hc_fast_axis {
+    int    cells;
+    int    first;        /* sample at coordinate 0                                  */
+    int    samples;      /* of the field                                            */
+    bool   wrapped;      /* coordinates repeat after `cells`                        */
+    double low, high;    /* the field's ends                                     */
+    double scale, shift; /* coordinate = scale * (ray's coordinate) + shift      */
+    double step, zero;   /* (u or v) = step * (coordinate - zero)                */
+} hc_fast_axis;
+
+struct hc_fast {
+    hc_fast_axis   x, y;
+    double         scale_z, shift_z; /* normalised height of a ray's height */
+    double         highest;
+    bool           steps, open_sides;
+    hc_isa         isa;
+    int            levels;
+    int32_t        stride[16], start[16]; /* of the levels' blocks; 16 for one vector register  */
+    int32_t        mirror_x, mirror_y;    /* width of the padded grid                           */
+    float          blur;                  /* [cells] by which marching may misplace a ray       */
+    int            stride_heights;
+    float         *heights; /* (x.cells + 1) * (y.cells + 1) corners                            */
+    hc_fast_block *blocks;  /* all levels, the finest first                                     */
+};
+
+/* A ray in cell coordinates, cut to where it can hit. Double: what comes out of it does not depend
+ * on how the marching found the place. */
+typedef struct hc_fast_ray {
+    double origin[3], direction[3], inverse[2];
+    double from, to; /* t */
+    bool   emerged;  /* `from` is where it came out of the ground: not a hit      */
+    bool   inside;   /* the ray itself starts at `from`, not at an edge of the field */
+} hc_fast_ray;
+
+typedef struct hc_fast_found {
+    double   t;
+    double   cell_x, cell_y; /* not yet wrapped */
+    uint32_t flags;
+} hc_fast_found;
+
+/* Fill heights and blocks. */
+hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log);
+
+typedef struct hc_fast_answer {
+    hc_hit  *hits; /* or NULL */
+    uint8_t *any;  /* or NULL */
+} hc_fast_answer;
+
+typedef void  hc_fast_march(const hc_fast *fast, hc_fast_answer answer, const hc_ray *rays,
+                            size_t count);
+hc_fast_march hc_fast_march_scalar, hc_fast_march_avx2, hc_fast_march_avx512;
+
+#endif

@@ -1,0 +1,320 @@
+/* The fast caster in double precision: where a ray can hit, and the first hit among a few cells.
+ *
+ * Walls are crossed at times that depend on the ray and the wall alone, and cells are tested whole,
+ * so that a hit is the same wherever the search for it began. */
+#ifndef HC_TRACE_FAST_EXACT_H
+#define HC_TRACE_FAST_EXACT_H
+
+#include "fast_data.h"
+
+#include <math.h>
+
+/* Height above the highest sample where rays enter, so that they enter in the open. */
+static const double HEADROOM = 0x1p-20;
+
+/* Unlike fmin and fmax these become one instruction; no NaN comes here. */
+static inline double lesser(double a, double b)
+{
+    return a < b ? a : b;
+}
+
+static inline double greater(double a, double b)
+{
+    return a > b ? a : b;
+}
+
+typedef struct patch {
+    double h00, h10, h01, h11;
+} patch;
+
+static inline int wrap_index(double cell, const hc_fast_axis *axis)
+{
+    const double last   = axis->cells - 1;
+    const double period = axis->cells;
+    const double inside = axis->wrapped ? cell - period * floor(cell / period) : cell;
+    return (int)lesser(greater(inside, 0.0), last);
+}
+
+static inline patch patch_at(const hc_fast *fast, double cell_x, double cell_y)
+{
+    const int    i     = wrap_index(cell_x, &fast->x);
+    const int    j     = wrap_index(cell_y, &fast->y);
+    const float *upper = fast->heights + (size_t)j * (size_t)fast->stride_heights + (size_t)i;
+    const float *lower = upper + fast->stride_heights;
+    if (fast->steps) {
+        return (patch){ (double)upper[0], (double)upper[0], (double)upper[0], (double)upper[0] };
+    }
+    return (patch){ (double)upper[0], (double)upper[1], (double)lower[0], (double)lower[1] };
+}
+
+/* The ray's height above the patch, as a quadratic a s^2 + b s + c of the time s after t. */
+typedef struct quadratic {
+    double a, b, c;
+} quadratic;
+
+static inline quadratic gap_over(const hc_fast_ray *r, const patch *p, double cell_x, double cell_y,
+                                 double t)
+{
+    const double x      = r->origin[0] + t * r->direction[0] - cell_x;
+    const double y      = r->origin[1] + t * r->direction[1] - cell_y;
+    const double z      = r->origin[2] + t * r->direction[2];
+    const double along  = p->h10 - p->h00;
+    const double across = p->h01 - p->h00;
+    const double twist  = p->h11 - p->h10 - across;
+    const double dx     = r->direction[0];
+    const double dy     = r->direction[1];
+    return (quadratic){ -twist * dx * dy,
+                        r->direction[2] - along * dx - across * dy - twist * (x * dy + y * dx),
+                        z - (p->h00 + along * x + across * y + twist * x * y) };
+}
+
+/* The first s > 0 where the quadratic comes down to 0 from c > 0 (or leaves c = 0 and comes back);
+ * INFINITY if it never does. */
+static inline double first_root(quadratic q)
+{
+    if (q.c == 0.0) {
+        return q.a < 0.0 && q.b > 0.0 ? -q.b / q.a : INFINITY;
+    }
+    const double disc = q.b * q.b - 4.0 * q.a * q.c;
+    const double den  = disc >= 0.0 ? sqrt(disc) - q.b : 0.0;
+    return den > 0.0 ? 2.0 * q.c / den : INFINITY;
+}
+
+typedef struct cursor {
+    double cell[2];
+    double enter, leave;
+} cursor;
+
+static inline double wall_time(const hc_fast_ray *r, int axis, double wall)
+{
+    return (wall - r->origin[axis]) * r->inverse[axis];
+}
+
+/* Times at which the ray comes into and out of a slab of cells; all times if it runs along it. */
+static inline double slab_enter(const hc_fast_ray *r, int axis, double cell)
+{
+    return r->direction[axis] == 0.0
+               ? -INFINITY
+               : wall_time(r, axis, r->direction[axis] > 0.0 ? cell : cell + 1.0);
+}
+
+static inline double slab_leave(const hc_fast_ray *r, int axis, double cell)
+{
+    return r->direction[axis] == 0.0
+               ? INFINITY
+               : wall_time(r, axis, r->direction[axis] > 0.0 ? cell + 1.0 : cell);
+}
+
+static inline double clamp_cell(const hc_fast_axis *axis, double cell)
+{
+    return axis->wrapped ? cell : lesser(greater(cell, 0.0), (double)axis->cells - 1.0);
+}
+
+/* The cell at t by the times of its walls: rounding of the position must not choose it. */
+static inline double cell_at(const hc_fast_ray *r, int axis, const hc_fast_axis *a, double t)
+{
+    const double step = r->direction[axis] > 0.0 ? 1.0 : -1.0;
+    double       cell = clamp_cell(a, floor(r->origin[axis] + t * r->direction[axis]));
+    while (slab_leave(r, axis, cell) <= t && clamp_cell(a, cell + step) != cell) {
+        cell += step;
+    }
+    while (slab_enter(r, axis, cell) > t && clamp_cell(a, cell - step) != cell) {
+        cell -= step;
+    }
+    return cell;
+}
+
+static inline void measure(const hc_fast_ray *r, cursor *c, double enter)
+{
+    c->enter = greater(r->from, enter);
+    c->leave = lesser(r->to, lesser(slab_leave(r, 0, c->cell[0]), slab_leave(r, 1, c->cell[1])));
+    c->leave = greater(c->leave, c->enter);
+}
+
+static inline cursor cursor_at(const hc_fast *fast, const hc_fast_ray *r, double t)
+{
+    cursor c = { .cell = { cell_at(r, 0, &fast->x, t), cell_at(r, 1, &fast->y, t) } };
+    measure(r, &c, greater(slab_enter(r, 0, c.cell[0]), slab_enter(r, 1, c.cell[1])));
+    return c;
+}
+
+static inline bool outside(const hc_fast_axis *axis, double cell)
+{
+    return !axis->wrapped && (cell < 0.0 || cell >= (double)axis->cells);
+}
+
+/* To the next cell; false behind the last. */
+static inline bool step(const hc_fast *fast, const hc_fast_ray *r, cursor *c)
+{
+    const double tx   = slab_leave(r, 0, c->cell[0]);
+    const double ty   = slab_leave(r, 1, c->cell[1]);
+    const int    axis = ty < tx;
+    if (c->leave >= r->to || isinf(lesser(tx, ty))) {
+        return false;
+    }
+    c->cell[axis] += r->direction[axis] > 0.0 ? 1.0 : -1.0;
+    measure(r, c, lesser(tx, ty));
+    return !outside(axis == 0 ? &fast->x : &fast->y, c->cell[axis]);
+}
+
+static inline bool hit_cell(const hc_fast *fast, const hc_fast_ray *r, hc_fast_found *found,
+                            const cursor *c)
+{
+    const patch p      = patch_at(fast, c->cell[0], c->cell[1]);
+    quadratic   q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
+    const bool  starts = c->enter == r->from;
+    if (starts && r->emerged) {
+        q.c = greater(q.c, 0.0);
+    } else if (q.c <= 0.0) {
+        const uint32_t side = starts || fast->steps ? HC_HIT_SIDE : 0;
+        *found              = (hc_fast_found){ c->enter, c->cell[0], c->cell[1],
+                                  starts && r->inside ? HC_HIT_INSIDE : side };
+        return true;
+    }
+    const double t = c->enter + first_root(q);
+    if (!(t <= c->leave)) {
+        return false;
+    }
+    *found = (hc_fast_found){ t, c->cell[0], c->cell[1], 0 };
+    return true;
+}
+
+static inline bool hc_fast_walk(const hc_fast *fast, const hc_fast_ray *r, hc_fast_found *found,
+                                double from, double to)
+{
+    cursor c    = cursor_at(fast, r, lesser(greater(from, r->from), r->to));
+    bool   more = true;
+    while (more) {
+        if (hit_cell(fast, r, found, &c)) {
+            return true;
+        }
+        more = c.leave <= to && step(fast, r, &c);
+    }
+    return false;
+}
+
+/* Follow a ray that came in through an open side below the surface until it comes out. */
+static inline bool emerge(const hc_fast *fast, hc_fast_ray *r)
+{
+    cursor c = cursor_at(fast, r, r->from);
+    do {
+        const patch     p = patch_at(fast, c.cell[0], c.cell[1]);
+        const quadratic q = gap_over(r, &p, c.cell[0], c.cell[1], c.enter);
+        const double    t =
+            q.c > 0.0 ? c.enter
+                         : c.enter + first_root((quadratic){ -q.a, -q.b, greater(-q.c, 0x1p-1000) });
+        if (t <= c.leave) {
+            r->from    = t;
+            r->emerged = true;
+            return true;
+        }
+    } while (step(fast, r, &c));
+    return false;
+}
+
+static inline bool all_finite(const hc_ray *ray)
+{
+    return isfinite(ray->origin[0]) && isfinite(ray->origin[1]) && isfinite(ray->origin[2])
+           && isfinite(ray->direction[0]) && isfinite(ray->direction[1])
+           && isfinite(ray->direction[2]) && isfinite(ray->tmin) && ray->tmax >= ray->tmin
+           && (ray->direction[0] != 0.0F || ray->direction[1] != 0.0F || ray->direction[2] != 0.0F);
+}
+
+/* Cut to low <= coordinate <= high; false: never there. */
+static inline bool cut(hc_fast_ray *r, int axis, double low, double high)
+{
+    const double origin    = r->origin[axis];
+    const double direction = r->direction[axis];
+    if (direction == 0.0) {
+        return origin >= low && origin <= high;
+    }
+    const double a = (low - origin) * r->inverse[axis];
+    const double b = (high - origin) * r->inverse[axis];
+    r->from        = greater(r->from, lesser(a, b));
+    r->to          = lesser(r->to, greater(a, b));
+    return r->from <= r->to;
+}
+
+/* Wrapped axes go on for ever: stop after so many periods. */
+static inline void limit(const hc_fast *fast, hc_fast_ray *r)
+{
+    const double down  = (fast->highest - r->origin[2]) / r->direction[2];
+    const double start = r->direction[2] < 0.0 ? greater(r->from, down) : r->from;
+    if (fast->x.wrapped && r->direction[0] != 0.0) {
+        r->to = lesser(r->to, start + HC_PERIODS_MAX * fast->x.cells * fabs(r->inverse[0]));
+    }
+    if (fast->y.wrapped && r->direction[1] != 0.0) {
+        r->to = lesser(r->to, start + HC_PERIODS_MAX * fast->y.cells * fabs(r->inverse[1]));
+    }
+}
+
+static inline bool place_ray(const hc_fast *fast, hc_fast_ray *r, const hc_ray *ray)
+{
+    r->origin[0]    = (double)ray->origin[0] * fast->x.scale + fast->x.shift;
+    r->origin[1]    = (double)ray->origin[1] * fast->y.scale + fast->y.shift;
+    r->origin[2]    = (double)ray->origin[2] * fast->scale_z + fast->shift_z;
+    r->direction[0] = (double)ray->direction[0] * fast->x.scale;
+    r->direction[1] = (double)ray->direction[1] * fast->y.scale;
+    r->direction[2] = (double)ray->direction[2] * fast->scale_z;
+    r->inverse[0]   = 1.0 / r->direction[0];
+    r->inverse[1]   = 1.0 / r->direction[1];
+    r->from         = (double)ray->tmin;
+    r->to           = (double)ray->tmax;
+    r->emerged      = false;
+    r->inside       = false;
+    limit(fast, r);
+    return (fast->x.wrapped || cut(r, 0, fast->x.low, fast->x.high))
+           && (fast->y.wrapped || cut(r, 1, fast->y.low, fast->y.high));
+}
+
+/* False: the ray is always above the highest sample. */
+static inline bool cut_top(const hc_fast *fast, hc_fast_ray *r)
+{
+    const double top = fast->highest + HEADROOM;
+    if (r->direction[2] == 0.0) {
+        return r->origin[2] <= top;
+    }
+    const double t = (top - r->origin[2]) / r->direction[2];
+    if (r->direction[2] < 0.0) {
+        r->from = greater(r->from, t);
+    } else {
+        r->to = lesser(r->to, t);
+    }
+    return r->from <= r->to;
+}
+
+/* False: a miss. */
+static inline bool hc_fast_begin(const hc_fast *fast, hc_fast_ray *r, const hc_ray *ray)
+{
+    if (!all_finite(ray) || !place_ray(fast, r, ray)) {
+        return false;
+    }
+    r->inside = r->from == (double)ray->tmin;
+    return cut_top(fast, r);
+}
+
+static inline double texture(const hc_fast_axis *axis, double coordinate)
+{
+    const double u = (coordinate - axis->zero) * axis->step;
+    return axis->wrapped ? u : lesser(greater(u, 0.0), 1.0);
+}
+
+static inline int32_t cell_index(const hc_fast *fast, const hc_fast_axis *axis, double cell)
+{
+    const int index = wrap_index(cell, axis) + axis->first;
+    return fast->steps && index >= axis->samples ? axis->samples - 1 : index;
+}
+
+static inline void hc_fast_fill(const hc_fast *fast, hc_hit *hit, const hc_fast_ray *r,
+                                const hc_fast_found *found)
+{
+    hit->t      = (float)found->t;
+    hit->u      = (float)texture(&fast->x, r->origin[0] + found->t * r->direction[0]);
+    hit->v      = (float)texture(&fast->y, r->origin[1] + found->t * r->direction[1]);
+    hit->height = (float)(r->origin[2] + found->t * r->direction[2]);
+    hit->cell_x = cell_index(fast, &fast->x, found->cell_x);
+    hit->cell_y = cell_index(fast, &fast->y, found->cell_y);
+    hit->flags  = found->flags;
+}
+
+#endif
