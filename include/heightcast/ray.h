@@ -11,10 +11,11 @@
  *   hits the wall (HC_HIT_SIDE), unless sides are open: then it goes on below the surface, may
  *   leave it upwards without a hit, and hits what it comes down on later.
  * - A miss is an answer: t = INFINITY. Rays with a NaN, an infinite origin or direction, an
- *   infinite or NaN tmin, no direction at all, or tmax < tmin miss. tmax may be INFINITY.
+ *   infinite or NaN tmin, no direction at all, or tmax < tmin miss. tmax may be INFINITY. A hit
+ *   whose t is beyond the largest float is a miss, too.
  * - Along a wrapped axis a ray is followed for HC_PERIODS_MAX periods from where it is at tmin, or
- *   where it first is as low as the highest sample, if that is later: what lies beyond is a
- *   miss. */
+ *   where it first is between the sides that do not wrap and at most at height 1, if that is later
+ *   (with open sides, below the surface: and at least at height -1): what lies beyond is a miss. */
 #ifndef HEIGHTCAST_RAY_H
 #define HEIGHTCAST_RAY_H
 
@@ -77,18 +78,21 @@ typedef struct hc_reference_options {
     bool         open_sides;
     hc_placement placement;
     /* For judging others: the surface of every cell is raised by rise + reach * (largest difference
-     * of neighbouring corners, per sample distance, over the cell), or lowered if both are
-     * negative. `reach` is a sideways distance in samples. A method whose arithmetic is as good as
-     * a ray moved by at most `rise` upwards and `reach` sideways finds its hit between those of the
-     * raised and the lowered surface. */
+     * of neighbouring corners, per sample distance, over the cell and the eight around it), or
+     * lowered if both are negative. Steps are raised by rise, and each top grows by reach, at the
+     * cost of lower (negative: higher) neighbours. So does the field at its sides. `reach` is a
+     * sideways distance in samples, below 1/4. A method whose arithmetic is as good as a ray moved
+     * by at most `rise` upwards and `reach` sideways finds its hit between those of the raised and
+     * the lowered surface, unless it starts under the surface at an open side. */
     double rise, reach;
 } hc_reference_options;
 
 /* The judge: a walk over every cell the ray crosses, in double precision, with the patch solved in
  * closed form. Fills `hit`; steps and crossings count cells. Cost: the cells crossed, whatever the
- * ray; `field` is read, not checked (hc_field_check does). Exact but for double rounding, which is
- * below 2^-40 of the field's side for origins within 2^10 sides of it.
- * Returns t in double precision, INFINITY for a miss. Reentrant.
+ * ray; `field` is read, not checked (hc_field_check does), nor is the placement. Exact but for
+ * double rounding, which is below 2^-48 of the field's side (of 256 sides along a wrapped axis),
+ * however far the origin is; t itself is rounded like all doubles, relative to tmin, too.
+ * Returns t in double precision, INFINITY for a miss. `options` may be NULL. Reentrant.
  * Source: WSCG 2009 section 4 (patch; the last term of its printed formula should be u v z11). */
 HC_API double hc_reference_trace(hc_hit *hit, const hc_field *field,
                                  const hc_reference_options *options, const hc_ray *ray);
