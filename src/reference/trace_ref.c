@@ -14,7 +14,8 @@ typedef struct axis {
     int    size;
     bool   wraps;
     bool   strips; /* steps */
-    double offset, scale, unit; /* samples from sample 0 = (world - offset) * scale / unit - first */
+    double offset, scale,
+        unit; /* samples from sample 0 = (world - offset) * scale / unit - first */
     double first;
     double period;    /* of the world, if it wraps */
     double low, high; /* the field's ends */
@@ -22,10 +23,10 @@ typedef struct axis {
 } axis;
 
 typedef struct scene {
-    const hc_field               *field;
-    const hc_reference_options   *options;
-    axis                          axes[2];
-    double                        lift, height_offset, height_scale;
+    const hc_field             *field;
+    const hc_reference_options *options;
+    axis                        axes[2];
+    double                      lift, height_offset, height_scale;
 } scene;
 
 /* A ray, moved along itself to where `t` is: there it is at `world` (less the offset), and at
@@ -39,21 +40,21 @@ typedef struct line {
 
 static axis make_axis(const hc_field *field, const hc_reference_options *options, bool vertical)
 {
-    const hc_placement *where = &options->placement;
-    const double        step  = vertical ? hc_field_step_v(field) : hc_field_step_u(field);
+    const hc_placement *where  = &options->placement;
+    const double        step   = vertical ? hc_field_step_v(field) : hc_field_step_u(field);
     const bool          placed = where->scale_z != 0.0;
-    axis                a     = { .size   = vertical ? field->height : field->width,
-                                  .strips = options->surface == HC_SURFACE_STEPS,
-                                  .reach  = options->reach };
-    a.wraps        = ((unsigned)field->wrap & (vertical ? HC_WRAP_V : HC_WRAP_U)) != 0;
-    const double u0 = field->registration == HC_GRID ? 0.0 : 0.5; /* in samples */
-    a.scale  = placed ? 1.0 : floor(1.0 / step + 0.5);
-    a.unit   = !placed ? 1.0 : vertical ? where->spacing_y : where->spacing_x;
-    a.offset = !placed ? 0.0 : where->offset[vertical ? 1 : 0];
-    a.first  = placed ? 0.0 : u0;
-    a.period = fabs(a.size * a.unit / a.scale);
-    a.low    = a.wraps ? -INFINITY : -u0 - a.reach;
-    a.high   = a.wraps ? INFINITY : floor(1.0 / step + 0.5) - u0 + a.reach;
+    axis                a      = { .size   = vertical ? field->height : field->width,
+                                   .strips = options->surface == HC_SURFACE_STEPS,
+                                   .reach  = options->reach };
+    a.wraps                    = ((unsigned)field->wrap & (vertical ? HC_WRAP_V : HC_WRAP_U)) != 0;
+    const double u0            = field->registration == HC_GRID ? 0.0 : 0.5; /* in samples */
+    a.scale                    = placed ? 1.0 : floor(1.0 / step + 0.5);
+    a.unit                     = !placed ? 1.0 : vertical ? where->spacing_y : where->spacing_x;
+    a.offset                   = !placed ? 0.0 : where->offset[vertical ? 1 : 0];
+    a.first                    = placed ? 0.0 : u0;
+    a.period                   = fabs(a.size * a.unit / a.scale);
+    a.low                      = a.wraps ? -INFINITY : -u0 - a.reach;
+    a.high                     = a.wraps ? INFINITY : floor(1.0 / step + 0.5) - u0 + a.reach;
     return a;
 }
 
@@ -115,7 +116,7 @@ typedef struct range {
 } range;
 
 /* Cut to where low <= place <= high along one axis. Empty: high < low. */
-static void cut(range *r, double place, double along, double low, double high, int axis)
+static void cut(range *r, double place, double along, double low, double high, int which)
 {
     if (along == 0.0) {
         r->high = place >= low && place <= high ? r->high : -INFINITY;
@@ -125,7 +126,7 @@ static void cut(range *r, double place, double along, double low, double high, i
     const double out = ((along > 0.0 ? high : low) - place) / along;
     if (in > r->low) {
         r->low     = in;
-        r->entered = axis;
+        r->entered = which;
     }
     r->high = fmin(r->high, out);
 }
@@ -150,7 +151,7 @@ static range enter_box(const scene *s, line *l, double bottom)
         back += r.low;
         const int entered = r.entered;
         move_line(s, l, r.low);
-        r = box_range(s, l, back, bottom);
+        r         = box_range(s, l, back, bottom);
         r.entered = r.entered == 3 ? entered : r.entered;
     }
     return r;
@@ -170,8 +171,10 @@ static double sample(const scene *s, int x, int y)
     int       at[2];
     for (int i = 0; i < 2; i++) {
         const int size = s->axes[i].size;
-        at[i] = s->axes[i].wraps ? (index[i] % size + size) % size
-                : index[i] < 0 ? 0 : index[i] < size ? index[i] : size - 1;
+        at[i]          = s->axes[i].wraps  ? (index[i] % size + size) % size
+                         : index[i] < 0    ? 0
+                         : index[i] < size ? index[i]
+                                           : size - 1;
     }
     return (double)s->field->heights[(size_t)at[1] * (size_t)s->field->width + (size_t)at[0]];
 }
@@ -285,7 +288,9 @@ static int cell_at(const axis *a, double place)
     }
     const int    top  = (int)floor(place + 0.5);
     const double away = fabs(a->reach);
-    return place <= top - 0.5 + away ? 2 * top - 1 : place >= top + 0.5 - away ? 2 * top + 1 : 2 * top;
+    return place <= top - 0.5 + away   ? 2 * top - 1
+           : place >= top + 0.5 - away ? 2 * top + 1
+                                       : 2 * top;
 }
 
 typedef struct walk {
@@ -296,14 +301,14 @@ typedef struct walk {
 } walk;
 
 /* When the ray crosses into the next cell along an axis. */
-static double next_wall(const scene *s, const line *l, const walk *w, int axis)
+static double next_wall(const scene *s, const line *l, const walk *w, int i)
 {
-    const double along = l->along[axis];
+    const double along = l->along[i];
     if (along == 0.0) {
         return INFINITY;
     }
-    const int next = along > 0.0 ? w->cell[axis] + 1 : w->cell[axis];
-    return (wall(&s->axes[axis], next) - l->place[axis]) / along;
+    const int next = along > 0.0 ? w->cell[i] + 1 : w->cell[i];
+    return (wall(&s->axes[i], next) - l->place[i]) / along;
 }
 
 /* From below the surface: when the ray comes down on it again, having come up in the same cell. */
@@ -508,7 +513,7 @@ double hc_reference_trace(hc_hit *hit, const hc_field *field, const hc_reference
 {
     static const hc_reference_options plain = { .open_sides = false };
     const hc_reference_options       *given = options != NULL ? options : &plain;
-    *hit = (hc_hit){ .t = INFINITY };
+    *hit                                    = (hc_hit){ .t = INFINITY };
     if (!valid(ray)) {
         return INFINITY;
     }
@@ -518,7 +523,7 @@ double hc_reference_trace(hc_hit *hit, const hc_field *field, const hc_reference
                           .lift          = fabs(given->rise) + fabs(given->reach),
                           .height_offset = placed ? given->placement.offset[2] : 0.0,
                           .height_scale  = placed ? given->placement.scale_z : 1.0 };
-    s.axes[0] = make_axis(field, given, false);
-    s.axes[1] = make_axis(field, given, true);
+    s.axes[0]         = make_axis(field, given, false);
+    s.axes[1]         = make_axis(field, given, true);
     return trace_line(hit, &s, ray);
 }
