@@ -5,7 +5,7 @@ import subprocess
 
 from program import DONE, INPUT_OUTPUT, SOURCE, USAGE, Case, main
 
-COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "bench"]
+COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "trace", "bench"]
 
 
 class Options(Case):

@@ -97,11 +97,11 @@ void hc_cli_warn(hc_cli *cli, const char *format, ...)
 
 /* ---- phases ---- */
 
-/* Baking and verifying ask through their progress whether to stop, and a file that is being written
+/* Baking, verifying and casting ask through their progress whether to stop, and a file that is being written
  * is finished; all else can be left where it stands. */
 static bool defers_signals(const char *phase)
 {
-    static const char *const careful[] = { "bake", "verify", "save" };
+    static const char *const careful[] = { "bake", "verify", "save", "cast" };
     for (size_t i = 0; phase != NULL && i < sizeof careful / sizeof *careful; i++) {
         if (strcmp(phase, careful[i]) == 0) {
             return true;
@@ -115,7 +115,9 @@ void hc_cli_phase(hc_cli *cli, const char *name)
     const double now = hc_cli_now();
     hc_cli_bar_clear(&cli->bar);
     if (cli->phase != NULL) {
-        (void)cJSON_AddNumberToObject(cli->seconds, cli->phase, now - cli->phase_start);
+        const double before = hc_cli_seconds(cli, cli->phase); /* a phase may come again */
+        cJSON_DeleteItemFromObject(cli->seconds, cli->phase);
+        (void)cJSON_AddNumberToObject(cli->seconds, cli->phase, before + now - cli->phase_start);
     }
     cli->phase       = name;
     cli->phase_start = now;

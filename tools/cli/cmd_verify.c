@@ -1,7 +1,10 @@
-/* heightcast verify: a cone map against brute force on the heights it was baked from. */
+/* heightcast verify: a cone map against brute force on the heights it was baked from, and rays
+ * against the reference. */
 #include "commands.h"
 #include "figures.h"
 #include "options.h"
+#include "scene.h"
+#include "verify_rays.h"
 
 #include <stdio.h>
 
@@ -81,19 +84,6 @@ static int verify(hc_cli *cli, const hc_map *map, const hc_field *field)
     return judge(cli, &verdict);
 }
 
-/* Wrap and registration are part of the map; what the command line says beats them. */
-static hc_result load_heights(hc_cli *cli, hc_field *field, const hc_map_info *info)
-{
-    hc_load_options load = cli->settings.load;
-    if (!hc_cli_given(&cli->settings, "wrap")) {
-        load.wrap = info->wrap;
-    }
-    if (!hc_cli_given(&cli->settings, "registration")) {
-        load.registration = info->registration;
-    }
-    return hc_load_field(field, cli->settings.heights, &load, &cli->log);
-}
-
 static int verify_map(hc_cli *cli, const hc_map *map)
 {
     hc_field field = { 0 };
@@ -102,26 +92,68 @@ static int verify_map(hc_cli *cli, const hc_map *map)
                            cli->settings.paths[0], hc_map_kind_name(map->info.kind),
                            hc_layout_name(map->info.layout));
     }
-    const hc_result result = load_heights(cli, &field, &map->info);
+    const hc_result result = hc_cli_load_heights(cli, &field, &map->info);
     const int code = result == HC_OK ? verify(cli, map, &field) : hc_cli_fail_result(cli, result);
     hc_free_field(&field);
     return code;
 }
 
-int hc_cli_run_verify(hc_cli *cli)
+static int verify_ratios(hc_cli *cli)
 {
-    const hc_cli_settings *settings = &cli->settings;
-    hc_map                 map      = { 0 };
-    if (settings->heights == NULL) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --heights FIELD");
+    hc_map map = { 0 };
+    hc_cli_phase(cli, "load");
+    const hc_result result =
+        hc_load_map(&map, cli->settings.paths[0], &cli->settings.load.limits, &cli->log);
+    const int code = result == HC_OK ? verify_map(cli, &map) : hc_cli_fail_result(cli, result);
+    hc_free_map(&map);
+    return code;
+}
+
+static int verify_rays(hc_cli *cli)
+{
+    hc_cli_scene scene;
+    hc_cli_phase(cli, "load");
+    int code = hc_cli_scene_load(&scene, cli, cli->settings.paths[0]);
+    hc_cli_phase(cli, NULL);
+    if (code == HC_CLI_DONE) {
+        code = hc_cli_verify_rays(cli, &scene);
+    }
+    hc_cli_scene_free(&scene);
+    return code;
+}
+
+static int check_arguments(hc_cli *cli)
+{
+    static const char *const of_rays[] = { "method", "steps", "refinements", "secant", "seed" };
+    const hc_cli_settings   *settings  = &cli->settings;
+    if (settings->heights == NULL && settings->rays.count == 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --heights FIELD, or --rays N, or both");
     }
     if (settings->all && settings->texels > 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--all and --texels exclude each other");
     }
-    hc_cli_phase(cli, "load");
-    const hc_result result =
-        hc_load_map(&map, settings->paths[0], &settings->load.limits, &cli->log);
-    const int code = result == HC_OK ? verify_map(cli, &map) : hc_cli_fail_result(cli, result);
-    hc_free_map(&map);
+    if (settings->rays.method == hc_trace_method_count()) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--method reference is what rays are judged by");
+    }
+    for (size_t i = 0; i < sizeof of_rays / sizeof *of_rays && settings->rays.count == 0; i++) {
+        if (hc_cli_given(settings, of_rays[i])) {
+            return hc_cli_fail(cli, HC_CLI_USAGE, "--%s does nothing without --rays; leave it out",
+                               of_rays[i]);
+        }
+    }
+    return HC_CLI_DONE;
+}
+
+/* Ratios with --heights, rays with --rays. */
+int hc_cli_run_verify(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    int                    code     = check_arguments(cli);
+    if (code == HC_CLI_DONE && settings->heights != NULL) {
+        code = verify_ratios(cli);
+    }
+    if (code == HC_CLI_DONE && settings->rays.count > 0) {
+        code = verify_rays(cli);
+    }
     return code;
 }

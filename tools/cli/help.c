@@ -87,7 +87,7 @@ void hc_cli_help_command(const hc_cli_command *command)
 void hc_cli_help(void)
 {
     (void)puts("Usage: heightcast COMMAND ...\n\n"
-               "Height maps in, cone step maps and max-mip pyramids out.\n\nCommands");
+               "Height maps in, cone step maps, max-mip pyramids and ray hits out.\n\nCommands");
     for (const hc_cli_command *command = hc_cli_commands; command->name != NULL; command++) {
         (void)printf("  %-8s %s\n", command->name, command->summary);
     }

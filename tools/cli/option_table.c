@@ -1,90 +1,15 @@
 /* All options of all commands. */
 #include "options.h"
+#include "words.h"
 
 #include <float.h>
-#include <string.h>
-
-/* The library's name functions say "unknown", or NULL, beyond the last name. */
-static const char *known(const char *name)
-{
-    return name == NULL || strcmp(name, "unknown") == 0 ? NULL : name;
-}
-
-static const char *wrap_words(int index)
-{
-    return known(hc_wrap_name((hc_wrap)index));
-}
-
-static const char *registration_words(int index)
-{
-    return known(hc_registration_name((hc_registration)index));
-}
-
-static const char *kind_words(int index)
-{
-    return known(hc_map_kind_name((hc_map_kind)index));
-}
-
-static const char *method_words(int index)
-{
-    return known(hc_method_name((hc_method)index));
-}
-
-static const char *cones_words(int index)
-{
-    return known(hc_cones_name((hc_cones)index));
-}
-
-static const char *layout_words(int index)
-{
-    return known(hc_layout_name((hc_layout)index));
-}
-
-static const char *isa_words(int index)
-{
-    return known(hc_isa_name((hc_isa)index));
-}
-
-/* In the order of the library's enums, which have no name functions. */
-static const char *channel_words(int index)
-{
-    static const char *const words[] = { "auto", "r", "g", "b", "a", "luma", NULL };
-    return words[index];
-}
-
-static const char *range_words(int index)
-{
-    static const char *const words[] = { "auto", "data", "type", NULL };
-    return words[index];
-}
-
-static const char *holes_words(int index)
-{
-    static const char *const words[] = { "error", "fill", "lowest", NULL };
-    return words[index];
-}
-
-static const char *backend_words(int index)
-{
-    static const char *const words[] = { "cpu", "gl", NULL };
-    return words[index];
-}
-
-static const char *bits_words(int index)
-{
-    static const char *const words[] = { "8", "16", "32", NULL };
-    return words[index];
-}
-
-static const char *compat_words(int index)
-{
-    static const char *const words[] = { "2006", NULL };
-    return words[index];
-}
 
 #define TARGET(member) offsetof(hc_cli_settings, member)
-#define LOADS (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW)
-#define WRITES (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW)
+#define LOADS                                                                                      \
+    (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW | HC_CLI_TRACE)
+#define WRITES                                                                                     \
+    (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW | HC_CLI_TRACE)
+#define CASTS (HC_CLI_TRACE | HC_CLI_VERIFY)
 
 const hc_cli_option hc_cli_options[] = {
     /* ---- what is read ---- */
@@ -92,7 +17,7 @@ const hc_cli_option hc_cli_options[] = {
       .commands = LOADS,
       .read     = hc_cli_read_word,
       .target   = TARGET(load.normalise.channel),
-      .words    = channel_words,
+      .words    = hc_cli_channel_words,
       .help = "Channel that holds the heights. auto: the only one, or luma where colours differ." },
     { .name     = "invert",
       .commands = LOADS,
@@ -102,7 +27,7 @@ const hc_cli_option hc_cli_options[] = {
       .commands = LOADS,
       .read     = hc_cli_read_range,
       .target   = TARGET(load.normalise),
-      .words    = range_words,
+      .words    = hc_cli_range_words,
       .metavar  = "auto|data|type|LOW:HIGH",
       .allowed  = "auto, data, type, or LOW:HIGH with two different numbers",
       .help = "What becomes height 0 and 1. data: the lowest and highest sample; type: 0 and the "
@@ -111,19 +36,19 @@ const hc_cli_option hc_cli_options[] = {
       .commands = LOADS,
       .read     = hc_cli_read_word,
       .target   = TARGET(load.wrap),
-      .words    = wrap_words,
+      .words    = hc_cli_wrap_words,
       .help     = "Axes along which the field repeats." },
     { .name     = "registration",
       .commands = LOADS,
       .read     = hc_cli_read_word,
       .target   = TARGET(load.registration),
-      .words    = registration_words,
+      .words    = hc_cli_registration_words,
       .help     = "Samples sit at texel centres, or on grid posts from edge to edge." },
     { .name     = "holes",
       .commands = LOADS,
       .read     = hc_cli_read_word,
       .target   = TARGET(load.normalise.holes),
-      .words    = holes_words,
+      .words    = hc_cli_holes_words,
       .help = "NaN, infinite and nodata samples: refuse the file, fill from the nearest, or take "
               "the lowest height." },
     { .name     = "raw",
@@ -151,14 +76,14 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(map.kind),
-      .words    = kind_words,
+      .words    = hc_cli_kind_words,
       .help     = "Kind of map (default cone)." },
     { .name     = "method",
       .commands = HC_CLI_BAKE,
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(map.cone.method),
-      .words    = method_words,
+      .words    = hc_cli_method_words,
       .help     = "How ratios are found. exact, brute and ring agree to the last bit; quick and "
                   "quick-improved are narrower; the others may cut the surface. For --map relaxed: "
                   "falling-edge (its default) or gems." },
@@ -167,7 +92,7 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(map.cone.cones),
-      .words    = cones_words,
+      .words    = hc_cli_cones_words,
       .help = "Shape: round (l2), diamond (l1), diamond for each quadrant, diamond stretched along "
               "an axis. All but l2 are safe between samples too." },
     { .name     = "layout",
@@ -175,7 +100,7 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(map.layout),
-      .words    = layout_words,
+      .words    = hc_cli_layout_words,
       .help = "How channels are arranged. auto: what holds the map; for l2 and l1 cones that is "
               "dummer (the 8-bit RGBA texture of the 2006 paper) in a PNG without --bits 16, "
               "else rg (height, ratio)." },
@@ -184,7 +109,7 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_number_word,
       .target   = TARGET(map.bits),
-      .words    = bits_words,
+      .words    = hc_cli_bits_words,
       .help     = "Bits per channel, 32 is float. Default: the most that the format holds (PNG 16, "
                   "others 32), 8 for layout dummer." },
     { .name     = "max-ratio",
@@ -222,7 +147,7 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_number_word,
       .target   = TARGET(compat),
-      .words    = compat_words,
+      .words    = hc_cli_compat_words,
       .help     = "The very bytes of the 2006 preprocessor, its faults included; implies --layout "
                   "dummer." },
     { .name     = "backend",
@@ -230,17 +155,174 @@ const hc_cli_option hc_cli_options[] = {
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(backend),
-      .words    = backend_words,
+      .words    = hc_cli_backend_words,
       .help     = "Where to bake." },
     { .name     = "isa",
-      .commands = HC_CLI_BAKE | HC_CLI_BENCH,
+      .commands = HC_CLI_BAKE | HC_CLI_BENCH | HC_CLI_TRACE,
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(map.cone.isa),
-      .words    = isa_words,
+      .words    = hc_cli_isa_words,
       .help     = "Vector kernels to use; the bytes do not depend on it." },
 
     /* ---- what one command does ---- */
+    { .name     = "rays",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_text,
+      .target   = TARGET(rays.in),
+      .metavar  = "NPY",
+      .allowed  = "an NPY file of rays, or - for standard input",
+      .help = "The rays: float32 (n, 8), rows ox oy oz tmin dx dy dz tmax; - is standard input." },
+    { .name     = "out",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_text,
+      .target   = TARGET(out),
+      .metavar  = "NPY",
+      .allowed  = "the name of an .npy file, or - for standard output",
+      .help     = "Write the hits: float32 (n, 8), rows t u v h nx ny nz steps, t infinite for a "
+                  "miss; - is standard output." },
+    { .name     = "method",
+      .commands = CASTS,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_word,
+      .target   = TARGET(rays.method),
+      .words    = hc_cli_marcher_words,
+      .metavar  = "NAME",
+      .help = "How rays find the surface. fast (default), safe, maxmip and reference (slow, the "
+              "judge) lose no hit; qdm, parallax, linear, relief, occlusion, cone-fixed, "
+              "cone-loop, cone-exact, relaxed, robust and quick are the published ones. What a "
+              "method needs is baked, unless FIELD is a map that has it." },
+    { .name     = "any",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .target   = TARGET(rays.any),
+      .help     = "Only ask whether there is a hit (shadows, lines of sight): --out becomes uint8 "
+                  "(n,), 1 for a hit." },
+    { .name     = "space",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_word,
+      .target   = TARGET(rays.space),
+      .words    = hc_cli_space_words,
+      .help = "What rays are given in: u, v, height; world units from the first sample, x to the "
+              "right, y to the top row, z the elevation; the same with the file's origin." },
+    { .name     = "spacing",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_spacing,
+      .target   = TARGET(rays.spacing),
+      .metavar  = "D or DX,DY",
+      .allowed  = "one or two positive distances, such as 30 or 25,30",
+      .help     = "World units between samples, where the file does not say or is wrong." },
+    { .name     = "elevation",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_rise,
+      .target   = TARGET(rays.elevation),
+      .metavar  = "LOW:HIGH",
+      .allowed  = "LOW:HIGH, the second number above the first",
+      .help     = "World z of heights 0 and 1, likewise." },
+    { .name     = "surface",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_word,
+      .target   = TARGET(rays.surface),
+      .words    = hc_cli_surface_words,
+      .help     = "Between samples: patches, or a flat top for each (fast, safe, maxmip, qdm, "
+                  "reference)." },
+    { .name     = "open-sides",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .target   = TARGET(rays.open_sides),
+      .help     = "Rays that come in below the surface do not hit the sides of the field." },
+    { .name     = "steps",
+      .commands = CASTS,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_int,
+      .target   = TARGET(rays.steps),
+      .low      = 1,
+      .high     = 65536,
+      .metavar  = "N",
+      .allowed  = "1 to 65536",
+      .help = "Steps of published methods (default: 10 for cone-fixed, 32 for linear, relief and "
+              "occlusion, 256 for cones)." },
+    { .name     = "refinements",
+      .commands = CASTS,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_int,
+      .target   = TARGET(rays.refinements),
+      .low      = 1,
+      .high     = 64,
+      .metavar  = "N",
+      .allowed  = "1 to 64",
+      .help     = "Bisections of relief, relaxed and quick (default 6)." },
+    { .name     = "secant",
+      .commands = CASTS,
+      .section  = HC_CLI_SECTION_WORK,
+      .target   = TARGET(rays.secant),
+      .help     = "One secant instead of bisections, for quick." },
+    { .name     = "picture",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_text,
+      .target   = TARGET(rays.picture),
+      .metavar  = "PNG",
+      .allowed  = "the name of a .png file",
+      .help     = "Cast the rays of a camera instead of a file's and write the shaded picture." },
+    { .name     = "save-rays",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_text,
+      .target   = TARGET(rays.save),
+      .metavar  = "NPY",
+      .allowed  = "the name of an .npy file, or - for standard output",
+      .help     = "Write the camera's rays, one row of pixels after the other from the top." },
+    { .name     = "eye",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_point,
+      .target   = TARGET(rays.eye),
+      .metavar  = "X,Y,Z",
+      .allowed  = "three numbers separated by commas",
+      .help     = "Where the camera is, in --space. Default: above the bottom row." },
+    { .name     = "at",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_point,
+      .target   = TARGET(rays.at),
+      .metavar  = "X,Y,Z",
+      .allowed  = "three numbers separated by commas",
+      .help     = "What the camera looks at. Default: the middle of the field." },
+    { .name     = "fov",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_float,
+      .target   = TARGET(rays.fov),
+      .high     = 170,
+      .metavar  = "DEGREES",
+      .allowed  = "numbers above 0, up to 170",
+      .help     = "Angle across the picture (default 60)." },
+    { .name     = "size",
+      .commands = HC_CLI_TRACE,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_size,
+      .target   = TARGET(size),
+      .metavar  = "WxH",
+      .allowed  = "WIDTHxHEIGHT, each 1 to 1048576, or one number for a square",
+      .help     = "Pixels of the picture (default 960x540)." },
+    { .name     = "rays",
+      .commands = HC_CLI_VERIFY,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_int,
+      .target   = TARGET(rays.count),
+      .low      = 1,
+      .high     = 10000000,
+      .metavar  = "N",
+      .allowed  = "1 to 10000000",
+      .help     = "Cast this many rays of all sorts with every method that MAP has the ratios for, "
+                  "and compare with the reference. MAP may be a height map: then all methods." },
     { .name     = "size",
       .commands = HC_CLI_GEN,
       .section  = HC_CLI_SECTION_WORK,
@@ -250,13 +332,13 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "WIDTHxHEIGHT, each 1 to 1048576, or one number for a square",
       .help     = "Samples; one number means a square." },
     { .name     = "seed",
-      .commands = HC_CLI_GEN | HC_CLI_BENCH,
+      .commands = HC_CLI_GEN | HC_CLI_BENCH | HC_CLI_VERIFY,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_u64,
       .target   = TARGET(seed),
       .metavar  = "N",
       .allowed  = "whole numbers from 0",
-      .help     = "Variant of a random field (default 0)." },
+      .help     = "Variant of a random field or of random rays (default 0)." },
     { .name     = "list",
       .commands = HC_CLI_GEN,
       .section  = HC_CLI_SECTION_WORK,
@@ -280,13 +362,14 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "the name of a .png file",
       .help     = "Write the picture, each panel with its scale, instead of drawing it here." },
     { .name     = "heights",
-      .commands = HC_CLI_VERIFY,
+      .commands = CASTS,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_text,
       .target   = TARGET(heights),
       .metavar  = "FIELD",
       .allowed  = "the height map that the map was baked from",
-      .help     = "The height map that the map was baked from (needed)." },
+      .help     = "The height map that the map was baked from. trace needs it only for maps that "
+                  "store no heights, verify always, unless it checks rays alone." },
     { .name     = "all",
       .commands = HC_CLI_VERIFY,
       .section  = HC_CLI_SECTION_WORK,

@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { OPTIONS_MAX = 64, LONG_ONLY = 256 };
+enum { LONG_ONLY = 256 };
 
 /* What getopt_long wants to know, and where its messages would have gone. */
 typedef struct parser {
@@ -18,8 +18,8 @@ typedef struct parser {
     char           **argv;
     char            *error;
     size_t           error_size;
-    struct option    longs[OPTIONS_MAX + 1];
-    char             letters[2 * OPTIONS_MAX + 2];
+    struct option    longs[HC_CLI_OPTIONS_MAX + 1];
+    char             letters[2 * HC_CLI_OPTIONS_MAX + 2];
 } parser;
 
 static int option_index(const char *name)
@@ -43,8 +43,7 @@ bool hc_cli_given(const hc_cli_settings *settings, const char *name)
 {
     bool given = false;
     for (int i = 0; hc_cli_options[i].name != NULL; i++) {
-        given =
-            given || (strcmp(hc_cli_options[i].name, name) == 0 && (settings->given >> i & 1) != 0);
+        given = given || (strcmp(hc_cli_options[i].name, name) == 0 && settings->given[i]);
     }
     return given;
 }
@@ -65,7 +64,7 @@ static void fill_tables(parser *p)
     p->letters[letters++] = ':'; /* tell a missing value from an unknown option */
     for (int i = 0; hc_cli_options[i].name != NULL; i++) {
         const hc_cli_option *option = &hc_cli_options[i];
-        assert(i < OPTIONS_MAX);
+        assert(i < HC_CLI_OPTIONS_MAX);
         if ((option->commands & p->command) == 0) {
             continue;
         }
@@ -202,7 +201,7 @@ static const char *optional_value(const parser *p)
 
 static bool take_option(parser *p, const hc_cli_option *option)
 {
-    p->settings->given |= (uint64_t)1 << (option - hc_cli_options);
+    p->settings->given[option - hc_cli_options] = true;
     if (option->read == NULL) {
         *(bool *)((char *)p->settings + option->target) = true;
         return true;

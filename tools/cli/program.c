@@ -34,11 +34,19 @@ const hc_cli_command hc_cli_commands[] = {
       "Both must have the same size, and maps the same kind and layout.",
       true },
     { "verify", HC_CLI_VERIFY, hc_cli_run_verify, "MAP", 1, 1,
-      "Check a cone map against brute force",
-      "Exit code 5 if any ratio is wider than the truth, or if the map's heights are not those of "
-      "FIELD. Give the options that FIELD was baked with (--invert, --range, ...); wrap and "
-      "registration are the map's.",
+      "Check a cone map against brute force, and rays against the reference",
+      "Exit code 5 if any ratio is wider than the truth, if the map's heights are not those of "
+      "FIELD, or if a ray of fast, safe or maxmip loses a hit or makes one up. Give the options "
+      "that FIELD was baked with (--invert, --range, ...); wrap and registration are the map's.\n"
+      "The other methods' losses are shown: hits that come before or after those of a surface "
+      "raised or lowered by half a sample sideways and 1/512 of the height.",
       true },
+    { "trace", HC_CLI_TRACE, hc_cli_run_trace, "FIELD", 1, 1, "Cast rays at a height field",
+      "FIELD is a height map, or a baked map that holds the heights. The rays come from a file "
+      "(--rays) or from a camera (--picture), the hits go to a file, a picture, or nowhere: then "
+      "only their number and the time are shown. Rays and hits stream: any number of them takes "
+      "little memory. docs/formats.md has the numbers of rays and hits.",
+      false },
     { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake]", 0, 1, "Measure the baker",
       "Each measurement runs in a process of its own, so that its peak memory is known.", true },
     { 0 },

@@ -119,6 +119,31 @@ bool hc_cli_read_range(const hc_cli_option *option, const char *text, hc_cli_set
            && normalise->low != normalise->high;
 }
 
+bool hc_cli_read_point(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    double *point = target_of(option, settings);
+    return number_until(text, ',', &point[0], &text) && number_until(text, ',', &point[1], &text)
+           && number_until(text, '\0', &point[2], &text);
+}
+
+bool hc_cli_read_spacing(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    double *spacing = target_of(option, settings);
+    if (number_until(text, '\0', &spacing[0], &text)) {
+        spacing[1] = spacing[0];
+        return spacing[0] > 0.0;
+    }
+    return number_until(text, ',', &spacing[0], &text)
+           && number_until(text, '\0', &spacing[1], &text) && spacing[0] > 0.0 && spacing[1] > 0.0;
+}
+
+bool hc_cli_read_rise(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    double *ends = target_of(option, settings);
+    return number_until(text, ':', &ends[0], &text) && number_until(text, '\0', &ends[1], &text)
+           && ends[0] < ends[1];
+}
+
 /* "u16be" and the like: the type, and the byte order behind it. */
 static bool read_sample_type(const char *text, hc_load_options *load)
 {

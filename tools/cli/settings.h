@@ -4,14 +4,38 @@
 
 #include <heightcast/bake.h>
 #include <heightcast/io.h>
+#include <heightcast/trace.h>
 
 #define HC_CLI_PATHS_MAX 2
+#define HC_CLI_OPTIONS_MAX 96 /* rows of the option table */
 
 typedef enum hc_cli_backend { HC_CLI_CPU = 0, HC_CLI_GL } hc_cli_backend;
 
 typedef struct hc_cli_size {
     int width, height; /* 0: not given */
 } hc_cli_size;
+
+/* What the numbers of a ray are.
+ * texture  u, v, height
+ * local    world units, counted from sample (0, 0), x to the right, y to the top row, z the
+ *          elevation
+ * world    the same, counted from where the file says that its place is */
+typedef enum hc_cli_space { HC_CLI_TEXTURE = 0, HC_CLI_LOCAL, HC_CLI_WORLD } hc_cli_space;
+
+/* trace, and verify with rays */
+typedef struct hc_cli_rays {
+    const char  *in, *save, *picture;
+    int          method; /* an hc_trace_method; the one beyond the last is the reference */
+    bool         any, open_sides, secant;
+    hc_surface   surface;
+    hc_cli_space space;
+    int          steps, refinements;
+    int          count;        /* verify */
+    double       spacing[2];   /* world units between samples, as the command line says */
+    double       elevation[2]; /* of heights 0 and 1, likewise                          */
+    double       eye[3], at[3];
+    float        fov; /* degrees across the picture; 0: 60 */
+} hc_cli_rays;
 
 /* All zero: the defaults, as the library's own option structs have them. */
 typedef struct hc_cli_settings {
@@ -32,8 +56,9 @@ typedef struct hc_cli_settings {
     int             repeat;
     const char     *report; /* bench: file for --json, "-" is standard output */
     const char     *csv;
+    hc_cli_rays     rays;
     bool            json, quiet, verbose, help, version;
-    uint64_t        given; /* one bit for each row of the option table */
+    bool            given[HC_CLI_OPTIONS_MAX]; /* which rows of the option table were */
 } hc_cli_settings;
 
 #endif

@@ -1,0 +1,102 @@
+/* The words that options take. */
+#include "words.h"
+
+#include <string.h>
+
+/* The library's name functions say "unknown", or NULL, beyond the last name. */
+static const char *known(const char *name)
+{
+    return name == NULL || strcmp(name, "unknown") == 0 ? NULL : name;
+}
+
+const char *hc_cli_wrap_words(int index)
+{
+    return known(hc_wrap_name((hc_wrap)index));
+}
+
+const char *hc_cli_registration_words(int index)
+{
+    return known(hc_registration_name((hc_registration)index));
+}
+
+const char *hc_cli_kind_words(int index)
+{
+    return known(hc_map_kind_name((hc_map_kind)index));
+}
+
+const char *hc_cli_method_words(int index)
+{
+    return known(hc_method_name((hc_method)index));
+}
+
+const char *hc_cli_cones_words(int index)
+{
+    return known(hc_cones_name((hc_cones)index));
+}
+
+const char *hc_cli_layout_words(int index)
+{
+    return known(hc_layout_name((hc_layout)index));
+}
+
+const char *hc_cli_isa_words(int index)
+{
+    return known(hc_isa_name((hc_isa)index));
+}
+
+/* In the order of the library's enums, which have no name functions. */
+const char *hc_cli_channel_words(int index)
+{
+    static const char *const words[] = { "auto", "r", "g", "b", "a", "luma", NULL };
+    return words[index];
+}
+
+const char *hc_cli_range_words(int index)
+{
+    static const char *const words[] = { "auto", "data", "type", NULL };
+    return words[index];
+}
+
+const char *hc_cli_holes_words(int index)
+{
+    static const char *const words[] = { "error", "fill", "lowest", NULL };
+    return words[index];
+}
+
+const char *hc_cli_surface_words(int index)
+{
+    return known(hc_surface_name((hc_surface)index));
+}
+
+const char *hc_cli_space_words(int index)
+{
+    static const char *const words[] = { "texture", "local", "world", NULL };
+    return words[index];
+}
+
+/* The reference stands behind the methods of the tracers. */
+const char *hc_cli_marcher_words(int index)
+{
+    const int count = hc_trace_method_count();
+    return index < count    ? hc_trace_method_name((hc_trace_method)index)
+           : index == count ? "reference"
+                            : NULL;
+}
+
+const char *hc_cli_backend_words(int index)
+{
+    static const char *const words[] = { "cpu", "gl", NULL };
+    return words[index];
+}
+
+const char *hc_cli_bits_words(int index)
+{
+    static const char *const words[] = { "8", "16", "32", NULL };
+    return words[index];
+}
+
+const char *hc_cli_compat_words(int index)
+{
+    static const char *const words[] = { "2006", NULL };
+    return words[index];
+}
