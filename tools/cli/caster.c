@@ -129,7 +129,7 @@ static hc_result trace_reference(hc_cli_caster *c, hc_progress progress)
     const bool finished = hc_cli_reference_batch(c->hits, NULL, &c->scene->field, &options, c->rays,
                                                  c->part, progress);
     for (size_t i = 0; finished && i < c->part; i++) {
-        c->any[i] = isfinite(c->hits[i].t);
+        c->any[i] = isfinite(c->hits[i].t) ? 1 : 0;
     }
     return finished ? HC_OK : HC_ERROR_CANCELLED;
 }
@@ -157,7 +157,7 @@ static void count_part(hc_cli_caster *c)
             continue;
         }
         const hc_hit *hit = &c->hits[i];
-        counts->hits += isfinite(hit->t);
+        counts->hits += isfinite(hit->t) ? 1 : 0;
         counts->inside += (hit->flags & HC_HIT_INSIDE) != 0;
         counts->side += (hit->flags & HC_HIT_SIDE) != 0;
         counts->unconverged += (hit->flags & HC_HIT_UNCONVERGED) != 0;
@@ -170,10 +170,10 @@ static void count_part(hc_cli_caster *c)
 static void fill_rows(hc_cli_caster *c)
 {
     for (size_t i = 0; i < c->part; i++) {
-        const hc_hit *hit = &c->hits[i];
-        c->rows[i]        = (hc_hit_row){
-                   .t = hit->t, .u = hit->u, .v = hit->v, .height = hit->height, .steps = (float)hit->steps
-        };
+        const hc_hit *hit   = &c->hits[i];
+        const float   steps = (float)hit->steps;
+        c->rows[i] =
+            (hc_hit_row){ hit->t, hit->u, hit->v, hit->height, { 0.0F, 0.0F, 0.0F }, steps };
         if (isfinite(hit->t)) {
             hc_trace_normals(c->tracer, c->rows[i].normal, NULL, hit);
         }

@@ -97,8 +97,8 @@ void hc_cli_warn(hc_cli *cli, const char *format, ...)
 
 /* ---- phases ---- */
 
-/* Baking, verifying and casting ask through their progress whether to stop, and a file that is being written
- * is finished; all else can be left where it stands. */
+/* Baking, verifying and casting ask through their progress whether to stop, and a file that is
+ * being written is finished; all else can be left where it stands. */
 static bool defers_signals(const char *phase)
 {
     static const char *const careful[] = { "bake", "verify", "save", "cast" };

@@ -124,7 +124,7 @@ static losses judge_method(judge *j)
     losses l = { 0 };
     for (size_t i = 0; i < j->count; i++) {
         const hc_hit *hit = &j->hits[i];
-        l.hits += isfinite(hit->t);
+        l.hits += isfinite(hit->t) ? 1 : 0;
         l.unconverged += (hit->flags & HC_HIT_UNCONVERGED) != 0;
         l.wrong_in_set[i % HC_CLI_RAY_SETS] += judge_hit(&l, &j->bounds, i, hit->t);
         if (isfinite(hit->t) && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) == 0) {
