@@ -118,7 +118,7 @@ hc_cli_camera hc_cli_camera_of(const hc_cli_settings *settings, const hc_cli_sce
     double        at[3];
     hc_cli_camera camera = { .width  = sized ? settings->size.width : WIDTH,
                              .height = sized ? settings->size.height : HEIGHT,
-                             .sun    = { -0.62, 0.38 * north, 0.55 } };
+                             .sun    = { -0.70, 0.45 * north, 0.35 } };
     (void)normalise(camera.sun);
     choose_view(&camera, at, settings, scene, north);
     aim(&camera, at, north, tangent(half));
