@@ -118,7 +118,7 @@ checked: texels compared with brute force; none was wider than it may be. mean k
 relative to brute force, on average; 8 and 16 bits round down. What quick-improved keeps of them is
 why exact cones are worth having.
 lost: hits behind the surface, or none; too early: before it, or where nothing is. fast, safe and
-maxmip may do neither; the others have half a sample and 1/512 of the height.
+maxmip may do neither; the others are given a fifth of a sample and 1/256 of the height.
 Pictures, made in $((SECONDS - start)) s:
 END
 ls $out/*view.png $out/*height_and_ratio.png $out/*quadrants.png $out/*quick_improved.png

@@ -516,7 +516,7 @@ class VerifyRays(Rays):
         for i in range(1, len(values), 2):
             self.patch_npy("map.npy", i, values[i] * 10)
         self.refused("verify", "map.npy", "--rays", 2000, "--method", "safe", code=VERIFY_FAILED,
-                     says=["safe lost", "never"])
+                     says=["must neither be lost", "safe lost"])
         figures = self.json("verify", "map.npy", "--rays", 2000, "--method", "safe",
                             code=VERIFY_FAILED)
         self.assertGreater(figures["methods"][0]["lost"], 0)

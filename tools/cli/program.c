@@ -39,7 +39,7 @@ const hc_cli_command hc_cli_commands[] = {
       "FIELD, or if a ray of fast, safe or maxmip loses a hit or makes one up. Give the options "
       "that FIELD was baked with (--invert, --range, ...); wrap and registration are the map's.\n"
       "The other methods' losses are shown: hits that come before or after those of a surface "
-      "raised or lowered by half a sample sideways and 1/512 of the height.",
+      "raised or lowered by 1/256 of the height and moved by a fifth of a sample sideways.",
       true },
     { "trace", HC_CLI_TRACE, hc_cli_run_trace, "FIELD", 1, 1, "Cast rays at a height field",
       "FIELD is a height map, or a baked map that holds the heights. The rays come from a file "
