@@ -26,4 +26,7 @@ for method in exact quick-improved; do
 done
 $program compare $work/exact.exr $work/quick-improved.exr \
     --diff $gallery/jacksboro_less_in_quick.png --overwrite -q >/dev/null
+$program trace data/jacksboro_fault_dem.pgm --range data --space local --spacing 74.5,92.5 \
+    --eye 15000,-35000,5000 --at 15000,-14000,0 --picture $gallery/jacksboro_view.png \
+    --overwrite -q
 ls $gallery/*.png

@@ -167,11 +167,10 @@ class Trace(Rays):
                          "world", "--method", "reference", *place)
         self.assertEqual(self.path("world.npy").read_bytes(), self.path("hits.npy").read_bytes())
 
-    def test_world_space_starts_at_the_origin_of_the_file(self):
-        """A TIFF that says its place."""
-        geo = self.path("geo.tif")
+    def placed_tiff(self, x, y):
+        """Two by two float samples, 10 apart to the east and 20 to the south, the first at x, y."""
         values = struct.pack("<4f", 0, 10, 10, 10)
-        scale, tie = struct.pack("<3d", 10, 20, 0), struct.pack("<6d", 0, 0, 0, 1000, 5000, 0)
+        scale, tie = struct.pack("<3d", 10, 20, 0), struct.pack("<6d", 0, 0, 0, x, y, 0)
         keys = struct.pack("<8H", 1, 1, 0, 1, 1025, 0, 1, 2)  # samples are points
         extra = 8 + len(values)
         entries = [(256, 4, 1, 2), (257, 4, 1, 2), (258, 3, 1, 32), (259, 3, 1, 1), (262, 3, 1, 1),
@@ -180,17 +179,29 @@ class Trace(Rays):
                    (34735, 3, 8, extra + 72)]
         directory = struct.pack("<H", len(entries)) + b"".join(
             struct.pack("<HHII", *entry) for entry in entries) + struct.pack("<I", 0)
-        geo.write_bytes(b"II*\0" + struct.pack("<I", extra + 88) + values + scale + tie + keys
-                        + directory)
+        self.path("geo.tif").write_bytes(b"II*\0" + struct.pack("<I", extra + 88) + values + scale
+                                         + tie + keys + directory)
+        return "geo.tif"
+
+    def test_world_space_starts_at_the_origin_of_the_file(self):
+        self.placed_tiff(1000, 5000)
         self.write_rays([[1005, 5000, 20, 0, 0, 0, -1, INF]])
         for method in ["fast", "reference"]:
-            self.run_program("trace", "geo.tif", "--rays", "rays.npy", "--out", "hits.npy",
-                             "--space", "world", "--method", method, "--overwrite")
+            figures = self.json("trace", "geo.tif", "--rays", "rays.npy", "--out", "hits.npy",
+                                "--space", "world", "--method", method, "--overwrite")
             self.assertEqual(self.rows("hits.npy")[0][:4], [15, 0.5, 0.25, 0.5])
+            self.assertNotIn("warnings", figures)
         self.write_rays([[5, 0, 20, 0, 0, 0, -1, INF]])
         self.run_program("trace", "geo.tif", "--rays", "rays.npy", "--out", "hits.npy", "--space",
                          "local", "--overwrite")
         self.assertEqual(self.rows("hits.npy")[0][:4], [15, 0.5, 0.25, 0.5])
+
+    def test_coarse_coordinates_are_warned_of(self):
+        self.placed_tiff(500000, 5400000)
+        self.write_rays([DOWN])
+        for space, warned in [("world", True), ("local", False)]:
+            figures = self.json("trace", "geo.tif", "--rays", "rays.npy", "--space", space)
+            self.assertEqual("--space local" in "".join(figures.get("warnings", [])), warned)
 
     def test_maps_as_fields(self):
         self.hills()

@@ -2,6 +2,7 @@
 
 #include "options.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -109,6 +110,20 @@ static int load_any(hc_cli_scene *scene, hc_cli *cli, const char *path)
 
 /* ---- placement ------------------------------------------------------------------------------- */
 
+/* Coordinates of maps have six or seven digits, of which float32 holds no more. */
+static void warn_coarse(hc_cli *cli, const hc_placement *placement)
+{
+    const double far    = fmax(fabs(placement->offset[0]), fabs(placement->offset[1]));
+    const double spaced = fmin(placement->spacing_x, -placement->spacing_y);
+    const double grain  = far * 0x1p-23;
+    if (grain > spaced / 32.0) {
+        hc_cli_warn(cli,
+                    "rays in float32 are %.2g apart near the origin of the file, its samples %.2g; "
+                    "--space local is finer",
+                    grain, spaced);
+    }
+}
+
 static int place(hc_cli_scene *scene, hc_cli *cli)
 {
     const hc_cli_rays  *rays      = &cli->settings.rays;
@@ -140,6 +155,7 @@ static int place(hc_cli_scene *scene, hc_cli *cli)
                                        .scale_z   = high - low,
                                        .offset    = { origin ? elevation->origin_x : 0.0,
                                                    origin ? elevation->origin_y : 0.0, low } };
+    warn_coarse(cli, &scene->placement);
     return HC_CLI_DONE;
 }
 
