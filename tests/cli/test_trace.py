@@ -486,6 +486,16 @@ class VerifyRays(Rays):
                     self.assertLess(m["reach"], 0.01)
         self.assertGreater(methods["parallax"]["lost"] + methods["parallax"]["too_early"], 0)
 
+    def test_surfaces_and_sides(self):
+        self.hills()
+        for options in [["--surface", "steps"], ["--open-sides"], ["--surface", "steps",
+                        "--open-sides"], ["--wrap", "uv"], ["--registration", "grid"]]:
+            with self.subTest(options=options):
+                methods = self.methods(self.json("verify", "hills.pgm", "--rays", 1000, *options))
+                self.assertEqual("relief" in methods, "steps" not in options)
+                for name in ["fast", "safe", "maxmip"]:
+                    self.assertGreater(methods[name]["hits"], 200)
+
     def test_seed_and_threads(self):
         self.hills()
         def measured(*options):

@@ -124,7 +124,8 @@ static int verify_rays(hc_cli *cli)
 
 static int check_arguments(hc_cli *cli)
 {
-    static const char *const of_rays[] = { "method", "steps", "refinements", "secant", "seed" };
+    static const char *const of_rays[] = { "method", "steps",   "refinements", "secant",
+                                           "seed",   "surface", "open-sides" };
     const hc_cli_settings   *settings  = &cli->settings;
     if (settings->heights == NULL && settings->rays.count == 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "needs --heights FIELD, or --rays N, or both");

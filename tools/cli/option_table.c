@@ -225,7 +225,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "LOW:HIGH, the second number above the first",
       .help     = "World z of heights 0 and 1, likewise." },
     { .name     = "surface",
-      .commands = HC_CLI_TRACE,
+      .commands = CASTS,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_word,
       .target   = TARGET(rays.surface),
@@ -233,7 +233,7 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "Between samples: patches, or a flat top for each (fast, safe, maxmip, qdm, "
                   "reference)." },
     { .name     = "open-sides",
-      .commands = HC_CLI_TRACE,
+      .commands = CASTS,
       .section  = HC_CLI_SECTION_WORK,
       .target   = TARGET(rays.open_sides),
       .help     = "Rays that come in below the surface do not hit the sides of the field." },

@@ -72,7 +72,10 @@ static bool find_bounds(judge *j, double rise, double reach)
     for (int pass = 0; pass < 2; pass++) {
         const double               sign    = pass == 0 ? 1.0 : -1.0;
         half_progress              half    = { j->cli, 0.5 * pass };
-        const hc_reference_options options = { .rise = sign * rise, .reach = sign * reach };
+        const hc_reference_options options = { .surface    = j->cli->settings.rays.surface,
+                                               .open_sides = j->cli->settings.rays.open_sides,
+                                               .rise       = sign * rise,
+                                               .reach      = sign * reach };
         if (!hc_cli_reference_batch(NULL, pass == 0 ? b->first : b->last, &j->scene->field,
                                     &options, j->rays, j->count,
                                     (hc_progress){ report_half, &half })) {
@@ -122,13 +125,14 @@ static void judge_steps(losses *l, judge *j)
 
 static losses judge_method(judge *j)
 {
-    losses l = { 0 };
+    const bool patches = j->cli->settings.rays.surface == HC_SURFACE_BILINEAR;
+    losses     l       = { 0 };
     for (size_t i = 0; i < j->count; i++) {
         const hc_hit *hit = &j->hits[i];
         l.hits += isfinite(hit->t) ? 1 : 0;
         l.unconverged += (hit->flags & HC_HIT_UNCONVERGED) != 0;
         l.wrong_in_set[i % HC_CLI_RAY_SETS] += judge_hit(&l, &j->bounds, i, hit->t);
-        if (isfinite(hit->t) && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) == 0) {
+        if (patches && isfinite(hit->t) && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) == 0) {
             const double surface =
                 hc_field_surface(&j->scene->field, (double)hit->u, (double)hit->v);
             l.off = fmax(l.off, fabs((double)hit->height - surface));
@@ -240,6 +244,15 @@ static int try_method(judge *j, cJSON *list, hc_trace_method method)
     return HC_CLI_DONE;
 }
 
+/* The map has what it needs, and it knows the surface. */
+static bool can_try(const judge *j, hc_trace_method method)
+{
+    const hc_trace_needs needs = hc_trace_method_needs(method);
+    const bool           holds = !j->scene->is_map || hc_cli_scene_holds(j->scene, needs);
+    return holds
+           && (method <= HC_TRACE_QDM || j->cli->settings.rays.surface == HC_SURFACE_BILINEAR);
+}
+
 /* A broken promise is told at the end, so that the table is whole. */
 static int try_methods(judge *j)
 {
@@ -250,9 +263,7 @@ static int try_methods(judge *j)
                "off height", "mean steps", "99 %");
     for (int i = 0; i < hc_trace_method_count(); i++) {
         const hc_trace_method method = (hc_trace_method)i;
-        const hc_trace_needs  needs  = hc_trace_method_needs(method);
-        if ((chosen && settings->rays.method != i)
-            || (j->scene->is_map && !hc_cli_scene_holds(j->scene, needs))) {
+        if ((chosen && settings->rays.method != i) || !can_try(j, method)) {
             continue;
         }
         const int code = try_method(j, list, method);
@@ -261,9 +272,11 @@ static int try_methods(judge *j)
         }
     }
     if (cJSON_GetArraySize(list) == 0) {
-        return hc_cli_fail(j->cli, HC_CLI_BAD_FILE, "%s has not the ratios that %s needs",
-                           settings->paths[0],
-                           hc_trace_method_name((hc_trace_method)settings->rays.method));
+        return hc_cli_fail(
+            j->cli, HC_CLI_BAD_FILE,
+            "%s cannot be tried: %s has not the ratios that it needs, or it does not "
+            "know the surface",
+            hc_trace_method_name((hc_trace_method)settings->rays.method), settings->paths[0]);
     }
     if (j->broken[0] != '\0') {
         return hc_cli_fail(j->cli, HC_CLI_VERIFY_FAILED,
