@@ -144,7 +144,9 @@ static void settle(const hc_tracer *tracer, hc_path *path, const entry *e)
         const double   far  = HC_PERIODS_MAX * (double)axis->size / fabs(path->along[i]);
         path->end           = axis->wraps ? fmin(path->end, far) : path->end;
         const double place  = hc_path_at(path, i, path->from);
-        path->cell[i]       = (int)floor(fmin(fmax(place, axis->low), axis->high));
+        const double inside = fmin(fmax(place, axis->low), axis->high);
+        /* On a wall the ray is in the cell that it goes into. */
+        path->cell[i] = (int)(path->along[i] < 0.0 ? ceil(inside) - 1.0 : floor(inside));
     }
     if (path->along[2] < 0.0) {
         path->end = fmin(path->end, hc_path_reaches(path, 2, DEEP));

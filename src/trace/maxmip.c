@@ -20,17 +20,22 @@ typedef struct walk {
     bool             crossed; /* the ray is on a wall it has just crossed */
 } walk;
 
-/* The node's index on its level, and its cells. The first and the last one of an unwrapped axis have
- * what lies at the border, too. */
+/* The node's index on its level, and its cells. Above single cells the first and the last one of an
+ * unwrapped axis have what lies at the border, too. */
 static int span_of(const hc_axis *axis, int cell, int level, int level_side, int *low, int *high)
 {
-    const int  index = hc_axis_index(axis, cell);
-    const int  which = index >> level < level_side ? index >> level : level_side - 1;
-    const bool last  = which == level_side - 1;
-    const int  base  = axis->wraps ? cell - index : 0;
-    *low             = !axis->wraps && which == 0 ? -2 : base + (which << level);
-    *high            = base + (last ? axis->size : (which + 1) << level);
-    *high += !axis->wraps && last ? 1 : 0;
+    const int index = hc_axis_index(axis, cell);
+    const int which = index >> level < level_side ? index >> level : level_side - 1;
+    const int base  = cell - index; /* of the period, where there are some */
+    *low            = base + (which << level);
+    *high           = base + (which < level_side - 1 ? (which + 1) << level : axis->size);
+    if (level == 0) {
+        *low  = cell;
+        *high = cell + 1;
+    } else if (!axis->wraps) {
+        *low  = which == 0 ? -2 : which << level;
+        *high = which < level_side - 1 ? (which + 1) << level : axis->size + 1;
+    }
     return which;
 }
 

@@ -1,0 +1,108 @@
+/* safe and maxmip, which promise to lose nothing, against the reference, two-sided (rays.h). The first
+ * argument multiplies the number of rays. */
+#include "rays.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+static size_t      times = 1;
+static agree_score score; /* of the present test */
+
+static const hc_trace_method sure[] = { HC_TRACE_SAFE, HC_TRACE_MAXMIP };
+enum { SURE = sizeof sure / sizeof *sure };
+
+static void fire_all(const hc_field *field, const char *kind, hc_trace_options options,
+                     hc_cones cones, size_t count, uint64_t *random)
+{
+    for (int m = 0; m < SURE; m++) {
+        options.method = sure[m];
+        agree_fire(&score, field, kind, &options, cones, count * times, random);
+    }
+}
+
+/* The judge must have had something to judge. */
+static void check_score(void)
+{
+    print_message("%zu rays, %zu hits, %zu undecided\n", score.fired, score.found, score.undecided);
+    assert_true(score.found > score.fired / 5);
+    assert_true(score.found < score.fired);
+    assert_true(score.undecided < score.fired / 100);
+    score = (agree_score){ 0, 0, 0 };
+}
+
+static void hard_fields(hc_surface surface)
+{
+    uint64_t random = 21 + (uint64_t)surface;
+    for (int i = 0; i < agree_field_count(&agree_small); i += 5) {
+        hc_field field = agree_field(&agree_small, i);
+        /* Of heights far below the tolerance, rounding alone says whether a ray comes up. */
+        const bool             decided = strcmp(agree_kind_of(i), "denormal rises") != 0;
+        const hc_trace_options options = { .surface    = surface,
+                                           .open_sides = i % 3 == 0 && decided };
+        fire_all(&field, agree_kind_of(i), options, i % 2 == 0 ? HC_CONES_L1 : HC_CONES_QUAD, 3,
+                 &random);
+        agree_free(&field);
+    }
+    check_score();
+}
+
+static void hard_fields_bilinear(void **state)
+{
+    (void)state;
+    hard_fields(HC_SURFACE_BILINEAR);
+}
+
+static void hard_fields_steps(void **state)
+{
+    (void)state;
+    hard_fields(HC_SURFACE_STEPS);
+}
+
+static void made_fields_and_elevations(void **state)
+{
+    (void)state;
+    uint64_t random = 23;
+    for (int i = 0; i <= hc_synth_count(); i++) {
+        const char *name               = i < hc_synth_count() ? hc_synth_name(i) : "dem";
+        hc_field    field              = agree_named_field(name, 61, 47, 3, (hc_wrap)(i % 4));
+        field.registration             = i % 3 == 0 ? HC_GRID : HC_TEXEL;
+        const hc_trace_options options = { .surface    = (hc_surface)(i % 5 == 0),
+                                           .open_sides = i % 7 == 0 };
+        fire_all(&field, name, options, i % 2 == 0 ? HC_CONES_QUAD : HC_CONES_L1, 40, &random);
+        agree_free(&field);
+    }
+    check_score();
+}
+
+static void placed_fields(void **state)
+{
+    (void)state;
+    static const hc_placement places[] = {
+        { 30.0, -30.0, 812.5, { 500000.0, 4100000.0, 210.0 } },
+        { -0.1, 0.3, 0.01, { 0.1, -7.0, -1.0 } },
+        { 1e-6, 1e-6, 1e3, { 0.0, 0.0, 0.0 } },
+    };
+    uint64_t random = 24;
+    for (int i = 0; i < 12; i++) {
+        hc_field field =
+            agree_named_field(i % 2 == 0 ? "fbm" : "spikes", 33, 50, 5, (hc_wrap)(i % 4));
+        field.registration             = i % 3 == 0 ? HC_GRID : HC_TEXEL;
+        const hc_trace_options options = { .placement = places[i % 3],
+                                           .surface   = (hc_surface)(i / 6) };
+        fire_all(&field, "placed", options, HC_CONES_L1, 40, &random);
+        agree_free(&field);
+    }
+    check_score();
+}
+
+int main(int argc, char **argv)
+{
+    times                           = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 1;
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(hard_fields_bilinear),
+        cmocka_unit_test(hard_fields_steps),
+        cmocka_unit_test(made_fields_and_elevations),
+        cmocka_unit_test(placed_fields),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
