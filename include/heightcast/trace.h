@@ -105,6 +105,15 @@ HC_API hc_result hc_tracer_create(hc_tracer **tracer, const hc_field *field,
                                   const hc_trace_options *options, hc_log *log);
 HC_API void      hc_tracer_destroy(hc_tracer *tracer);
 
+/* The same from a baked map with heights (layouts dummer, rg, aniso, height; of pyramids level 0):
+ * they are decoded, as are the ratios if the map has those that the method needs (cone maps of l1
+ * for safe, of l2 for the methods that need l2 ratios, relaxed maps for relaxed) and
+ * options->ratios is NULL. The tracer owns both: 4 or 8 bytes per texel besides what
+ * hc_tracer_bytes says; `map` may go. What it promises, it promises for the heights of the map.
+ * Errors: also HC_ERROR_ARGUMENT for maps without heights, and for bounds. */
+HC_API hc_result hc_tracer_create_from_map(hc_tracer **tracer, const hc_map *map,
+                                           const hc_trace_options *options, hc_log *log);
+
 /* Bytes that hc_tracer_create takes for such a tracer, besides what it borrows; 0 if it would
  * refuse. Exact, but for the allocator's own. */
 HC_API size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *options);
