@@ -79,6 +79,7 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
         fast->start[k]  = (int32_t)blocks;
         blocks += (size_t)wide * (size_t)high;
     } while ((side + width - 1) / width > COARSEST);
+    fast->first_level    = fast->levels > 2 ? 2 : fast->levels - 1;
     fast->mirror_x       = (fast->x.cells + width - 1) / width * width;
     fast->mirror_y       = (fast->y.cells + width - 1) / width * width;
     const int mirror     = fast->mirror_x > fast->mirror_y ? fast->mirror_x : fast->mirror_y;

@@ -20,6 +20,9 @@ enum { ALL_LANES = 0xffff, PACKS = 2 };
 /* Lanes to gather before they are looked at together, and before they take new rays. */
 enum { NEAR_MIN = 6, DONE_MIN = 4 };
 
+/* Rays that go less far, in cells, are walked at once: vertical ones above all. */
+static const double MARCH_FROM = 2.0;
+
 /* Blocks that a step must have crossed for the next one to try the coarser level. */
 static const float RISE = 2.0F;
 
@@ -40,11 +43,21 @@ typedef struct pack {
     unsigned    active, near; /* lanes with a ray; of them, waiting on a cell */
 } pack;
 
+/* Rays on their way into lanes, made ready sixteen at a time. */
+typedef struct batch {
+    double  origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
+    double  from[HC_LANES], to[HC_LANES], scale[HC_LANES];
+    float   start[3][HC_LANES], rate[3][HC_LANES], reciprocal[2][HC_LANES], end[HC_LANES];
+    int32_t meets[HC_LANES], long_enough[HC_LANES], inside[HC_LANES];
+    int     next, count;
+} batch;
+
 typedef struct job {
     const hc_fast *fast;
     hc_fast_answer answer;
     const hc_ray  *rays;
     size_t         count, taken;
+    batch          ready;
 } job;
 
 /* ---- rays in and out of lanes ---------------------------------------------------------------- */
@@ -112,7 +125,7 @@ static bool begin_segment(const job *j, pack *p, int i, double t, hc_fast_found 
     const double       run     = fabs(r->direction[0]) + fabs(r->direction[1]);
     p->next[i]                 = next;
     *hit                       = false;
-    if (!((next - t) * run >= 2.0)) {
+    if (!((next - t) * run >= MARCH_FROM)) {
         *hit = hc_fast_walk(fast, r, found, t, next);
         return *hit;
     }
@@ -128,7 +141,7 @@ static bool begin_segment(const job *j, pack *p, int i, double t, hc_fast_found 
     p->quadrant[i] = (r->direction[0] < 0.0 ? 8 : 0) + (r->direction[1] < 0.0 ? 16 : 0);
     p->s[i]        = 0.0F;
     p->end[i]      = (float)((next - t) * run) + 2.0F * fast->blur;
-    p->level[i]    = fast->levels - 1 < 2 ? fast->levels - 1 : 2;
+    p->level[i]    = fast->first_level;
     p->from[i]     = t;
     p->scale[i]    = scale;
     return true;
@@ -152,17 +165,193 @@ static bool go_on(const job *j, pack *p, int i, double t)
     return !hit;
 }
 
+/* The loops over lanes below become vector code: they choose, but never branch. */
+static void place_rays(batch *b, const hc_fast *fast, const hc_ray *rays)
+{
+    const double scale[3] = { fast->x.scale, fast->y.scale, fast->scale_z };
+    const double shift[3] = { fast->x.shift, fast->y.shift, fast->shift_z };
+    for (int i = 0; i < HC_LANES; i++) {
+        const hc_ray *ray = &rays[i < b->count ? i : 0];
+        for (int k = 0; k < 3; k++) {
+            b->origin[k][i]    = (double)ray->origin[k];
+            b->direction[k][i] = (double)ray->direction[k];
+        }
+        b->from[i] = (double)ray->tmin;
+        b->to[i]   = (double)ray->tmax;
+    }
+    for (int i = 0; i < HC_LANES; i++) {
+        const double sum = b->origin[0][i] + b->origin[1][i] + b->origin[2][i] + b->from[i]
+                           + b->direction[0][i] + b->direction[1][i] + b->direction[2][i];
+        const double length =
+            fabs(b->direction[0][i]) + fabs(b->direction[1][i]) + fabs(b->direction[2][i]);
+        b->meets[i] = (sum * 0.0 == 0.0) & (length > 0.0) & (b->to[i] >= b->from[i]);
+    }
+    for (int k = 0; k < 3; k++) {
+        for (int i = 0; i < HC_LANES; i++) {
+            b->origin[k][i]    = b->origin[k][i] * scale[k] + shift[k];
+            b->direction[k][i] = b->direction[k][i] * scale[k];
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < HC_LANES; i++) {
+            b->inverse[k][i] = 1.0 / b->direction[k][i];
+        }
+    }
+}
+
+/* Cut to the field's ends along an unwrapped axis. */
+static void cut_sides(batch *b, int axis, const hc_fast_axis *a)
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        const double origin = b->origin[axis][i];
+        const double low    = (a->low - origin) * b->inverse[axis][i];
+        const double high   = (a->high - origin) * b->inverse[axis][i];
+        const bool   along  = b->direction[axis][i] == 0.0;
+        const bool   beyond = (origin < a->low) | (origin > a->high);
+        const double enter  = along ? -INFINITY : lesser(low, high);
+        const double leave  = along ? INFINITY : greater(low, high);
+        b->from[i]          = greater(b->from[i], enter);
+        b->to[i]            = lesser(b->to[i], leave);
+        b->meets[i] &= !(along & beyond);
+    }
+}
+
+/* Cut to HC_PERIODS_MAX periods of a wrapped axis. */
+static void cut_periods(batch *b, int axis, const hc_fast_axis *a, double highest)
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        const double down  = (highest - b->origin[2][i]) / b->direction[2][i];
+        const double start = b->direction[2][i] < 0.0 ? greater(b->from[i], down) : b->from[i];
+        const double run   = HC_PERIODS_MAX * a->cells * fabs(b->inverse[axis][i]);
+        b->to[i]           = lesser(b->to[i], start + run);
+    }
+}
+
+/* Cut to the heights below the highest sample. */
+static void cut_top(batch *b, double top)
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        const double direction = b->direction[2][i];
+        const double t         = (top - b->origin[2][i]) / direction;
+        b->from[i]             = direction < 0.0 ? greater(b->from[i], t) : b->from[i];
+        b->to[i]               = direction > 0.0 ? lesser(b->to[i], t) : b->to[i];
+        b->meets[i] &= !((direction == 0.0) & (b->origin[2][i] > top));
+    }
+}
+
+/* In the lanes' coordinates, if the ray stays in one period. */
+static void mirror_rays(batch *b, const hc_fast *fast)
+{
+    const double mirror[2] = { fast->mirror_x, fast->mirror_y };
+    for (int i = 0; i < HC_LANES; i++) {
+        const double run  = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
+        const double way  = (b->to[i] - b->from[i]) * run;
+        b->scale[i]       = 1.0 / run;
+        b->end[i]         = (float)way + 2.0F * fast->blur;
+        b->long_enough[i] = way >= MARCH_FROM;
+    }
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < HC_LANES; i++) {
+            const double direction = b->direction[k][i];
+            const double at        = b->origin[k][i] + b->from[i] * direction;
+            const float  rate      = (float)fabs(direction * b->scale[i]);
+            b->start[k][i]         = (float)(direction < 0.0 ? mirror[k] - at : at);
+            b->rate[k][i]          = rate;
+            b->reciprocal[k][i]    = rate > 0x1p-60F ? 1.0F / rate : 0x1p60F;
+        }
+    }
+    for (int i = 0; i < HC_LANES; i++) {
+        b->start[2][i] = (float)(b->origin[2][i] + b->from[i] * b->direction[2][i]);
+        b->rate[2][i]  = (float)(b->direction[2][i] * b->scale[i]);
+    }
+}
+
+/* Make the next rays ready. */
+static void make_ready(job *j)
+{
+    const hc_fast *fast = j->fast;
+    batch         *b    = &j->ready;
+    const hc_ray  *rays = j->rays + j->taken;
+    const size_t   left = j->count - j->taken;
+    b->next             = 0;
+    b->count            = left < HC_LANES ? (int)left : HC_LANES;
+    j->taken += (size_t)b->count;
+    place_rays(b, fast, rays);
+    for (int axis = 0; axis < 2; axis++) {
+        const hc_fast_axis *a = axis == 0 ? &fast->x : &fast->y;
+        if (a->wrapped) {
+            cut_periods(b, axis, a, fast->highest);
+        } else {
+            cut_sides(b, axis, a);
+        }
+    }
+    for (int i = 0; i < b->count; i++) {
+        b->inside[i] = b->from[i] == (double)rays[i].tmin;
+    }
+    cut_top(b, fast->highest + HEADROOM);
+    for (int i = 0; i < HC_LANES; i++) {
+        b->meets[i] &= b->from[i] <= b->to[i];
+    }
+    mirror_rays(b, fast);
+}
+
+static void load_ray(hc_fast_ray *r, const batch *b, int k)
+{
+    *r = (hc_fast_ray){ .origin = { b->origin[0][k], b->origin[1][k], b->origin[2][k] },
+                        .direction = { b->direction[0][k], b->direction[1][k], b->direction[2][k] },
+                        .inverse   = { b->inverse[0][k], b->inverse[1][k] },
+                        .from      = b->from[k],
+                        .to        = b->to[k],
+                        .inside    = b->inside[k] };
+}
+
+static void load_lane(const hc_fast *fast, pack *p, int i, const batch *b, int k)
+{
+    const bool back_x = b->direction[0][k] < 0.0;
+    const bool back_y = b->direction[1][k] < 0.0;
+    p->x[i]           = b->start[0][k];
+    p->y[i]           = b->start[1][k];
+    p->z[i]           = b->start[2][k];
+    p->dx[i]          = b->rate[0][k];
+    p->dy[i]          = b->rate[1][k];
+    p->dz[i]          = b->rate[2][k];
+    p->rx[i]          = b->reciprocal[0][k];
+    p->ry[i]          = b->reciprocal[1][k];
+    p->flip_x[i]      = -(int)back_x;
+    p->flip_y[i]      = -(int)back_y;
+    p->add_x[i]       = back_x ? fast->mirror_x : 0;
+    p->add_y[i]       = back_y ? fast->mirror_y : 0;
+    p->quadrant[i]    = (back_x ? 8 : 0) + (back_y ? 16 : 0);
+    p->s[i]           = 0.0F;
+    p->end[i]         = b->end[k];
+    p->level[i]       = fast->first_level;
+    p->from[i]        = b->from[k];
+    p->scale[i]       = b->scale[k];
+    p->next[i]        = b->to[k];
+}
+
 /* Give lane i the next ray that needs marching; false: there is none. */
 static bool take_ray(job *j, pack *p, int i)
 {
-    while (j->taken < j->count) {
-        const size_t which = j->taken++;
-        p->which[i]        = which;
-        p->steps[i]        = 0;
-        p->crossings[i]    = 0;
-        if (!hc_fast_begin(j->fast, &p->rays[i], &j->rays[which])) {
-            answer_ray(j, which, NULL, NULL, 0, 0);
-        } else if (go_on(j, p, i, p->rays[i].from)) {
+    batch *b = &j->ready;
+    while (b->next < b->count || j->taken < j->count) {
+        if (b->next == b->count) {
+            make_ready(j);
+        }
+        const int k     = b->next++;
+        p->which[i]     = j->taken - (size_t)b->count + (size_t)k;
+        p->steps[i]     = 0;
+        p->crossings[i] = 0;
+        if (b->meets[k] == 0) {
+            answer_ray(j, p->which[i], NULL, NULL, 0, 0);
+            continue;
+        }
+        load_ray(&p->rays[i], b, k);
+        if (b->long_enough[k] != 0 && !j->fast->x.wrapped && !j->fast->y.wrapped) {
+            load_lane(j->fast, p, i, b, k);
+            return true;
+        }
+        if (go_on(j, p, i, p->rays[i].from)) {
             return true;
         }
     }
@@ -414,7 +603,8 @@ static inline bool round_of(job *j, pack *p)
         p->active &= ~end_segments(j, p, ended);
     }
     const unsigned idle = ~p->active & ALL_LANES;
-    if (j->taken < j->count && (__builtin_popcount(idle) >= DONE_MIN || p->active == 0)) {
+    if ((j->ready.next < j->ready.count || j->taken < j->count)
+        && (__builtin_popcount(idle) >= DONE_MIN || p->active == 0)) {
         p->active |= refill(j, p, idle);
     }
     return p->active != 0;
