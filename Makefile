@@ -3,7 +3,7 @@ PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
 export FUZZ_SECONDS
 
-.PHONY: all demo test fuzz bench gallery lint install clean
+.PHONY: all demo test fuzz bench bench-peers gallery lint install clean
 
 # build/heightcast and the libraries; the tests need more packages
 all:
@@ -31,6 +31,15 @@ fuzz:
 
 bench: all
 	build/heightcast bench bake
+
+# our caster of rays and those of others, on the same rays; installs them
+bench-peers:
+	@scripts/install_deps.sh peers
+	@mkdir -p build
+	@cmake --preset release -DHC_BUILD_TESTS=OFF -DHC_PEERS=ON >build/configure.log 2>&1 || \
+		{ cat build/configure.log; exit 1; }
+	@cmake --build --preset release
+	build/heightcast bench trace --field fbm,dunes,spikes,data/jacksboro_fault_dem.pgm
 
 # the pictures of docs/gallery
 gallery: all

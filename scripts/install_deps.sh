@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Install the Debian or Ubuntu packages that are missing for: build, demo, test, fuzz, lint.
+# Install the Debian or Ubuntu packages that are missing for: build, demo, test, fuzz, lint, peers.
 # usage: install_deps.sh [--check] SET
 # Asks nothing of the network when all are there. --check installs nothing, and is content on
 # systems without dpkg.
@@ -10,7 +10,7 @@ if [ "${1:-}" = --check ]; then
     check=yes
     shift
 fi
-set_name=${1:?usage: install_deps.sh [--check] build|demo|test|fuzz|lint}
+set_name=${1:?usage: install_deps.sh [--check] build|demo|test|fuzz|lint|peers}
 
 build=(gcc libc6-dev cmake ninja-build pkgconf libspng-dev libtiff-dev libopenexr-dev zlib1g-dev
     libcjson-dev)
@@ -28,6 +28,7 @@ test)
         wanted+=(nodejs npm)
     fi
     ;;
+peers) wanted=("${build[@]}" g++ libembree-dev libbullet-dev) ;;
 fuzz) wanted=("${build[@]}" libcmocka-dev clang) ;;
 lint) wanted=("${build[@]}" python3 clang-format clang-tidy) ;;
 *)

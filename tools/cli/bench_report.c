@@ -57,10 +57,8 @@ static void add_csv_row(hc_cli_bench *bench, const hc_bench_row *row)
 
 /* ---- the head ---- */
 
-static void show_machine(hc_cli_bench *bench)
+void hc_cli_show_machine(hc_cli *cli, const hc_bench_machine *machine)
 {
-    const hc_bench_machine *machine = &bench->machine;
-    hc_cli                 *cli     = bench->cli;
     hc_cli_group(cli, "machine");
     hc_cli_text(cli, "cpu", machine->cpu);
     hc_cli_number(cli, "cores", machine->cores, NULL);
@@ -78,7 +76,7 @@ int hc_cli_bench_begin(hc_cli_bench *bench)
     hc_cli *cli = bench->cli;
     hc_bench_machine_read(&bench->machine);
     hc_cli_text(cli, "bench", "bake");
-    show_machine(bench);
+    hc_cli_show_machine(cli, &bench->machine);
     bench->list = cJSON_AddArrayToObject(cli->json, "rows");
     add_csv(bench, "field,side,method,cones,threads,runs,seconds,fastest,slowest,processor_seconds,"
                    "ns_per_texel,"

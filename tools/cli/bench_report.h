@@ -19,6 +19,9 @@ typedef struct hc_cli_bench {
     bool             failed; /* memory ran out: rows are missing              */
 } hc_cli_bench;
 
+/* The head of every report. */
+void hc_cli_show_machine(hc_cli *cli, const hc_bench_machine *machine);
+
 /* Read the machine, print the head. Returns the exit code. */
 int hc_cli_bench_begin(hc_cli_bench *bench);
 /* hc_bench_options.row_done; `user` is the bench. */

@@ -1,5 +1,6 @@
 /* heightcast bench: the measurements of bench/ as a table, JSON and CSV. */
 #include "bench_report.h"
+#include "bench_trace.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "lists.h"
@@ -21,8 +22,7 @@ static const char *field_word(int index)
     return hc_synth_name(index);
 }
 
-/* Split the value of --NAME and check each item against `words` (NULL: none). */
-static int read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
+int hc_cli_read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
                      hc_cli_words *words)
 {
     char known[512];
@@ -46,15 +46,16 @@ static int read_list(hc_cli *cli, hc_cli_list *list, const char *name, const cha
     return HC_CLI_DONE;
 }
 
-static int read_sides(hc_cli *cli, bench_lists *lists)
+int hc_cli_read_sides(hc_cli *cli, hc_cli_list *sides, int numbers[HC_CLI_LIST_MAX],
+                      const char *otherwise)
 {
-    const char *text = cli->settings.sizes == NULL ? "512,4096" : cli->settings.sizes;
-    const int   code = read_list(cli, &lists->sides, "sizes", text, NULL);
-    for (int i = 0; code == HC_CLI_DONE && i < lists->sides.count; i++) {
-        const char *item   = lists->sides.items[i];
+    const char *text = cli->settings.sizes == NULL ? otherwise : cli->settings.sizes;
+    const int   code = hc_cli_read_list(cli, sides, "sizes", text, NULL);
+    for (int i = 0; code == HC_CLI_DONE && i < sides->count; i++) {
+        const char *item   = sides->items[i];
         const bool  digits = item[strspn(item, "0123456789")] == '\0' && strlen(item) < 8;
-        lists->numbers[i]  = digits ? atoi(item) : 0;
-        if (lists->numbers[i] < 1 || lists->numbers[i] > HC_SIDE_MAX) {
+        numbers[i]         = digits ? atoi(item) : 0;
+        if (numbers[i] < 1 || numbers[i] > HC_SIDE_MAX) {
             return hc_cli_fail(cli, HC_CLI_USAGE, "--sizes %s: allowed are %s", item,
                                hc_cli_option_named("sizes")->allowed);
         }
@@ -65,13 +66,14 @@ static int read_sides(hc_cli *cli, bench_lists *lists)
 static int read_lists(hc_cli *cli, bench_lists *lists)
 {
     const hc_cli_settings *settings = &cli->settings;
-    int                    code     = read_sides(cli, lists);
+    int                    code = hc_cli_read_sides(cli, &lists->sides, lists->numbers, "512,4096");
     if (code == HC_CLI_DONE) {
-        code = read_list(cli, &lists->fields, "field",
-                         settings->fields == NULL ? "fbm" : settings->fields, field_word);
+        code = hc_cli_read_list(cli, &lists->fields, "field",
+                                settings->fields == NULL ? "fbm" : settings->fields, field_word);
     }
     if (code == HC_CLI_DONE && settings->methods != NULL) {
-        code = read_list(cli, &lists->methods, "methods", settings->methods, hc_bench_method);
+        code =
+            hc_cli_read_list(cli, &lists->methods, "methods", settings->methods, hc_bench_method);
     }
     return code;
 }
@@ -79,8 +81,10 @@ static int read_lists(hc_cli *cli, bench_lists *lists)
 static int check_arguments(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
-    if (settings->path_count == 1 && strcmp(settings->paths[0], "bake") != 0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "nothing to measure is called '%s'; bake is",
+    if (settings->path_count == 1 && strcmp(settings->paths[0], "bake") != 0
+        && strcmp(settings->paths[0], "trace") != 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "nothing to measure is called '%s'; bake and trace are",
                            settings->paths[0]);
     }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
@@ -119,12 +123,12 @@ static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench)
     return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
 }
 
-static int write_reports(hc_cli *cli, const hc_cli_bench *bench)
+int hc_cli_write_reports(hc_cli *cli, const char *csv)
 {
     const hc_cli_settings *settings = &cli->settings;
     int                    code     = HC_CLI_DONE;
     if (settings->csv != NULL) {
-        code = hc_cli_write_text(cli, settings->csv, bench->csv);
+        code = hc_cli_write_text(cli, settings->csv, csv);
     }
     if (code == HC_CLI_DONE && settings->report != NULL && !settings->json) {
         char *text = cJSON_Print(cli->json);
@@ -141,7 +145,11 @@ int hc_cli_run_bench(hc_cli *cli)
     hc_cli_bench bench = { .cli = cli };
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
     int code           = check_arguments(cli);
-    code               = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
+    if (code == HC_CLI_DONE && cli->settings.path_count == 1
+        && strcmp(cli->settings.paths[0], "trace") == 0) {
+        return hc_cli_run_bench_trace(cli);
+    }
+    code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
     if (code != HC_CLI_DONE) {
         return code;
     }
@@ -149,7 +157,7 @@ int hc_cli_run_bench(hc_cli *cli)
     code = code == HC_CLI_DONE ? measure(cli, &lists, &bench) : code;
     if (code == HC_CLI_DONE) {
         hc_cli_bench_figures(&bench);
-        code = write_reports(cli, &bench);
+        code = hc_cli_write_reports(cli, bench.csv);
     }
     hc_cli_bench_end(&bench);
     return code;

@@ -47,7 +47,8 @@ const hc_cli_command hc_cli_commands[] = {
       "only their number and the time are shown. Rays and hits stream: any number of them takes "
       "little memory. docs/formats.md has the numbers of rays and hits.",
       false },
-    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake]", 0, 1, "Measure the baker",
+    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace]", 0, 1,
+      "Measure the baker, or the casters of rays",
       "Each measurement runs in a process of its own, so that its peak memory is known.", true },
     { 0 },
 };

@@ -1,0 +1,266 @@
+#include "trace_bench.h"
+
+#include "peers.h"
+#include "trace_rays.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { DEFAULT_REPEAT = 3, DEFAULT_THREADS = 2, THREADS_MAX = 64, CHUNK = 1 << 14 };
+
+static const hc_bench_peer *const peers[] = {
+    &hc_peer_fast,
+#if defined(HC_HAVE_EMBREE)
+    &hc_peer_embree_triangles,
+    &hc_peer_embree_grids,
+#endif
+#if defined(HC_HAVE_BULLET)
+    &hc_peer_bullet,
+#endif
+};
+
+enum { PEERS = (int)(sizeof peers / sizeof *peers) };
+
+typedef struct bench {
+    const hc_bench_trace_options *options;
+    const char                   *name;
+    hc_field                      field;
+    hc_ray                       *rays[HC_RAYS_SETS];
+    hc_hit                       *hits; /* of one set; or its bytes, for any hit */
+    size_t                        count;
+} bench;
+
+/* A scene, and what was measured of making it. */
+typedef struct stage {
+    const hc_bench_peer *peer;
+    void                *scene;
+    double               build_seconds;
+} stage;
+
+/* Part of a set for one thread: every `share`-th chunk, beginning with chunk `first`. */
+typedef struct part {
+    const bench *bench;
+    const stage *stage;
+    int          mode, set, first, step;
+} part;
+
+static double read_clock(clockid_t clock)
+{
+    struct timespec now;
+    (void)clock_gettime(clock, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+const char *hc_bench_caster(int index)
+{
+    return index >= 0 && index < PEERS ? peers[index]->name : NULL;
+}
+
+static bool stopped(const hc_bench_trace_options *options)
+{
+    return options->stop != NULL && options->stop();
+}
+
+static void *run_part(void *context)
+{
+    const part          *p    = context;
+    const bench         *b    = p->bench;
+    const hc_bench_peer *peer = p->stage->peer;
+    uint8_t             *any  = (uint8_t *)b->hits;
+    const size_t         step = (size_t)p->step * CHUNK;
+    for (size_t i = (size_t)p->first * CHUNK; i < b->count; i += step) {
+        const size_t  count = b->count - i < CHUNK ? b->count - i : CHUNK;
+        const hc_ray *rays  = b->rays[p->set] + i;
+        if (hc_bench_rays_any((hc_bench_rays)p->set)) {
+            peer->any(p->stage->scene, p->mode, any + i, rays, count);
+        } else {
+            peer->nearest(p->stage->scene, p->mode, b->hits + i, rays, count);
+        }
+    }
+    return NULL;
+}
+
+/* Wall time of a set on so many threads. */
+static double run_set(const bench *b, const stage *s, int mode, int set, int threads)
+{
+    pthread_t    ids[THREADS_MAX];
+    part         parts[THREADS_MAX];
+    int          started = 0;
+    const double start   = read_clock(CLOCK_MONOTONIC);
+    for (int i = 0; i < threads; i++) {
+        parts[i] = (part){ b, s, mode, set, i * s->peer->share, threads * s->peer->share };
+    }
+    while (started + 1 < threads
+           && pthread_create(&ids[started], NULL, run_part, &parts[started + 1]) == 0) {
+        started++;
+    }
+    (void)run_part(&parts[0]);
+    for (int i = 0; i < started; i++) {
+        (void)pthread_join(ids[i], NULL);
+    }
+    for (int i = started + 1; i < threads; i++) { /* threads that were not to be had */
+        (void)run_part(&parts[i]);
+    }
+    return read_clock(CLOCK_MONOTONIC) - start;
+}
+
+/* Rays that a run casts, and how many of them hit. */
+static size_t count_hits(const bench *b, const stage *s, int set, size_t *cast)
+{
+    const uint8_t *any  = (const uint8_t *)b->hits;
+    size_t         hits = 0;
+    *cast               = 0;
+    for (size_t i = 0; i < b->count; i++) {
+        if (i / CHUNK % (size_t)s->peer->share == 0) {
+            (*cast)++;
+            hits += hc_bench_rays_any((hc_bench_rays)set) ? any[i] != 0 : b->hits[i].t < INFINITY;
+        }
+    }
+    return hits;
+}
+
+static void measure(const bench *b, const stage *s, int mode, int set, int threads)
+{
+    const hc_bench_trace_options *options = b->options;
+    const int                     repeat  = options->repeat > 0 ? options->repeat : DEFAULT_REPEAT;
+    double                        fastest = INFINITY;
+    for (int i = 0; i < repeat; i++) {
+        fastest = fmin(fastest, run_set(b, s, mode, set, threads));
+    }
+    size_t                   cast;
+    const size_t             hits = count_hits(b, s, set, &cast);
+    const hc_bench_trace_row row  = { .field           = b->name,
+                                      .side            = b->field.width,
+                                      .rays            = hc_bench_rays_name(set),
+                                      .caster          = s->peer->name,
+                                      .mode            = s->peer->modes[mode],
+                                      .threads         = threads,
+                                      .count           = cast,
+                                      .runs            = repeat,
+                                      .seconds         = fastest,
+                                      .rays_per_second = (double)cast / fastest,
+                                      .hits            = (double)hits / (double)cast,
+                                      .build_seconds   = s->build_seconds,
+                                      .bytes           = s->peer->bytes(s->scene) };
+    options->row_done(options->user, &row);
+}
+
+static hc_result measure_all(const bench *b, const stage *s)
+{
+    const int threads = b->options->threads > 0 ? b->options->threads : DEFAULT_THREADS;
+    for (int set = 0; set < HC_RAYS_SETS; set++) {
+        for (int mode = 0; mode < HC_PEER_MODES && s->peer->modes[mode] != NULL; mode++) {
+            for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
+                if (stopped(b->options)) {
+                    return HC_ERROR_CANCELLED;
+                }
+                measure(b, s, mode, set, n < THREADS_MAX ? n : THREADS_MAX);
+            }
+        }
+    }
+    return HC_OK;
+}
+
+static bool wanted(const hc_bench_trace_options *options, const char *name)
+{
+    for (int i = 0; i < options->caster_count; i++) {
+        if (strcmp(options->casters[i], name) == 0) {
+            return true;
+        }
+    }
+    return options->caster_count == 0;
+}
+
+static hc_result run_peers(const bench *b)
+{
+    hc_result result = HC_OK;
+    for (int i = 0; i < PEERS && result == HC_OK; i++) {
+        if (!wanted(b->options, peers[i]->name)) {
+            continue;
+        }
+        stage        s     = { .peer = peers[i] };
+        const double start = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+        s.scene            = s.peer->create(&b->field, b->options->isa);
+        s.build_seconds    = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start;
+        if (s.scene == NULL) {
+            return HC_ERROR_MEMORY;
+        }
+        result = measure_all(b, &s);
+        s.peer->destroy(s.scene);
+    }
+    return result;
+}
+
+static int mirrored(int i, int side)
+{
+    const int at = i % (2 * side);
+    return at < side ? at : 2 * side - 1 - at;
+}
+
+static hc_result make_field(float *heights, int side, const hc_bench_ground *ground, uint64_t seed,
+                            hc_log *log)
+{
+    const hc_field *tile = ground->tile;
+    if (tile == NULL) {
+        return hc_synth(heights, side, side, ground->name, seed, log);
+    }
+    for (int y = 0; y < side; y++) {
+        const float *row = tile->heights + (size_t)mirrored(y, tile->height) * (size_t)tile->width;
+        for (int x = 0; x < side; x++) {
+            heights[(size_t)y * (size_t)side + (size_t)x] = row[mirrored(x, tile->width)];
+        }
+    }
+    return HC_OK;
+}
+
+static bool take(bench *b, float **heights, int side)
+{
+    bool taken = true;
+    *heights   = malloc((size_t)side * (size_t)side * sizeof **heights);
+    b->hits    = calloc(b->count, sizeof *b->hits);
+    for (int set = 0; set < HC_RAYS_SETS; set++) {
+        b->rays[set] = malloc(b->count * sizeof **b->rays);
+        taken        = taken && b->rays[set] != NULL;
+    }
+    return taken && *heights != NULL && b->hits != NULL;
+}
+
+static hc_result run_field(const hc_bench_trace_options *options, const hc_bench_ground *ground,
+                           int side, hc_log *log)
+{
+    float    *heights;
+    bench     b      = { .options = options,
+                         .name    = ground->name,
+                         .field   = { .width = side, .height = side },
+                         .count   = options->rays > 0 ? options->rays : HC_RAYS_PICTURE };
+    hc_result result = take(&b, &heights, side)
+                           ? make_field(heights, side, ground, options->seed, log)
+                           : HC_ERROR_MEMORY;
+    b.field.heights  = heights;
+    if (result == HC_OK) {
+        for (int set = 0; set < HC_RAYS_SETS; set++) {
+            hc_bench_fill_rays(b.rays[set], b.count, (hc_bench_rays)set, &b.field);
+        }
+        result = run_peers(&b);
+    }
+    for (int set = 0; set < HC_RAYS_SETS; set++) {
+        free(b.rays[set]);
+    }
+    free(b.hits);
+    free(heights);
+    return result;
+}
+
+hc_result hc_bench_trace(const hc_bench_trace_options *options, hc_log *log)
+{
+    hc_result result = HC_OK;
+    for (int i = 0; i < options->field_count; i++) {
+        for (int j = 0; j < options->side_count && result == HC_OK; j++) {
+            result = run_field(options, &options->fields[i], options->sides[j], log);
+        }
+    }
+    return result;
+}

@@ -1,0 +1,245 @@
+/* heightcast bench trace: casters on the same rays, as a table, JSON and CSV. */
+#include "bench_report.h"
+#include "bench_trace.h"
+#include "interrupt.h"
+
+#include "bench/trace_bench.h"
+
+#include <heightcast/io.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { LINE_MAX_BYTES = 512 };
+
+typedef struct report {
+    hc_cli             *cli;
+    hc_bench_machine    machine;
+    hc_bench_trace_row *rows; /* one scene and size after another */
+    int                 count, capacity;
+    cJSON              *list;
+    char               *csv;
+    size_t              csv_size;
+    bool                failed;
+} report;
+
+typedef struct inputs {
+    hc_cli_list     sides, fields, casters;
+    int             numbers[HC_CLI_LIST_MAX];
+    hc_bench_ground grounds[HC_CLI_LIST_MAX];
+    hc_field        tiles[HC_CLI_LIST_MAX];
+} inputs;
+
+static void add_csv(report *r, const char *line)
+{
+    const size_t length = strlen(line);
+    char        *grown  = realloc(r->csv, r->csv_size + length + 1);
+    if (grown == NULL) {
+        r->failed = true;
+        return;
+    }
+    memcpy(grown + r->csv_size, line, length + 1);
+    r->csv = grown;
+    r->csv_size += length;
+}
+
+static void add_json(report *r, const hc_bench_trace_row *row)
+{
+    cJSON *object = cJSON_CreateObject();
+    (void)cJSON_AddStringToObject(object, "field", row->field);
+    (void)cJSON_AddNumberToObject(object, "side", row->side);
+    (void)cJSON_AddStringToObject(object, "rays", row->rays);
+    (void)cJSON_AddStringToObject(object, "caster", row->caster);
+    (void)cJSON_AddStringToObject(object, "mode", row->mode);
+    (void)cJSON_AddNumberToObject(object, "threads", row->threads);
+    (void)cJSON_AddNumberToObject(object, "count", (double)row->count);
+    (void)cJSON_AddNumberToObject(object, "runs", row->runs);
+    (void)cJSON_AddNumberToObject(object, "seconds", row->seconds);
+    (void)cJSON_AddNumberToObject(object, "rays_per_second", row->rays_per_second);
+    (void)cJSON_AddNumberToObject(object, "hits", row->hits);
+    (void)cJSON_AddNumberToObject(object, "build_seconds", row->build_seconds);
+    (void)cJSON_AddNumberToObject(object, "bytes", row->bytes);
+    (void)cJSON_AddItemToArray(r->list, object);
+}
+
+static void row_done(void *user, const hc_bench_trace_row *row)
+{
+    report      *r       = user;
+    const double samples = (double)row->side * (double)row->side;
+    char         line[LINE_MAX_BYTES];
+    if (r->count == r->capacity) {
+        const int           capacity = r->capacity == 0 ? 64 : 2 * r->capacity;
+        hc_bench_trace_row *grown    = realloc(r->rows, (size_t)capacity * sizeof *grown);
+        if (grown == NULL) {
+            r->failed = true;
+            return;
+        }
+        r->rows     = grown;
+        r->capacity = capacity;
+    }
+    r->rows[r->count++] = *row;
+    add_json(r, row);
+    (void)snprintf(line, sizeof line, "%s,%d,%s,%s,%s,%d,%zu,%d,%.6g,%.6g,%.4g,%.6g,%.0f\n",
+                   row->field, row->side, row->rays, row->caster, row->mode, row->threads,
+                   row->count, row->runs, row->seconds, row->rays_per_second, row->hits,
+                   row->build_seconds, row->bytes);
+    add_csv(r, line);
+    hc_cli_say(r->cli, "%-10s %5d %-7s %-16s %-8s %7d %10.2f %6.3f %10.1f %8.1f\n", row->field,
+               row->side, row->rays, row->caster, row->mode, row->threads,
+               1e-6 * row->rays_per_second, row->hits, 1e9 * row->build_seconds / samples,
+               row->bytes / samples);
+    if (r->cli->on_stdout) {
+        (void)fflush(stdout); /* a long run shows what it has */
+    }
+}
+
+/* The fastest of others on the rays of `like`; NULL: there is none. */
+static const hc_bench_trace_row *best_other(const report *r, const hc_bench_trace_row *like)
+{
+    const hc_bench_trace_row *best = NULL;
+    for (int i = 0; i < r->count; i++) {
+        const hc_bench_trace_row *row = &r->rows[i];
+        if (row->side == like->side && row->field == like->field && row->threads == like->threads
+            && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") != 0
+            && (best == NULL || row->rays_per_second > best->rays_per_second)) {
+            best = row;
+        }
+    }
+    return best;
+}
+
+static const hc_bench_trace_row *other_threads(const report *r, const hc_bench_trace_row *like)
+{
+    for (int i = 0; i < r->count; i++) {
+        const hc_bench_trace_row *row = &r->rows[i];
+        if (row->side == like->side && row->field == like->field && row->threads > 1
+            && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") == 0) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/* What `fast` reaches over the best of the others, and with several threads over one. */
+static void add_figures(report *r)
+{
+    cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
+    hc_cli_say(r->cli, "\n%-10s %5s %-7s %-26s %6s %8s\n", "field", "side", "rays", "best other",
+               "ratio", "threads");
+    for (int i = 0; i < r->count; i++) {
+        const hc_bench_trace_row *row   = &r->rows[i];
+        const hc_bench_trace_row *other = best_other(r, row);
+        const hc_bench_trace_row *more  = other_threads(r, row);
+        if (strcmp(row->caster, "fast") != 0 || row->threads != 1) {
+            continue;
+        }
+        const double ratio    = other == NULL ? NAN : row->rays_per_second / other->rays_per_second;
+        const double gain     = more == NULL ? NAN : more->rays_per_second / row->rays_per_second;
+        cJSON       *object   = cJSON_CreateObject();
+        char         name[64] = "";
+        if (other != NULL) {
+            (void)snprintf(name, sizeof name, "%s %s", other->caster, other->mode);
+        }
+        (void)cJSON_AddStringToObject(object, "field", row->field);
+        (void)cJSON_AddNumberToObject(object, "side", row->side);
+        (void)cJSON_AddStringToObject(object, "rays", row->rays);
+        (void)cJSON_AddStringToObject(object, "best_other", name);
+        (void)cJSON_AddNumberToObject(object, "ratio", ratio);
+        (void)cJSON_AddNumberToObject(object, "threads_speedup", gain);
+        (void)cJSON_AddItemToArray(list, object);
+        hc_cli_say(r->cli, "%-10s %5d %-7s %-26s %6.2f %8.2f\n", row->field, row->side, row->rays,
+                   name, ratio, gain);
+    }
+}
+
+/* Names of made fields, or files: what has a dot. */
+static int read_fields(hc_cli *cli, inputs *in)
+{
+    const char *text = cli->settings.fields == NULL ? "fbm" : cli->settings.fields;
+    int         code = hc_cli_read_list(cli, &in->fields, "field", text, NULL);
+    for (int i = 0; code == HC_CLI_DONE && i < in->fields.count; i++) {
+        const char *item = in->fields.items[i];
+        const char *name = strrchr(item, '/');
+        in->grounds[i]   = (hc_bench_ground){ .name = name == NULL ? item : name + 1 };
+        if (strchr(item, '.') != NULL) {
+            const hc_result result =
+                hc_load_field(&in->tiles[i], item, &cli->settings.load, &cli->log);
+            in->grounds[i].tile = &in->tiles[i];
+            code                = result == HC_OK ? code : hc_cli_fail_result(cli, result);
+        }
+    }
+    return code;
+}
+
+static int read_inputs(hc_cli *cli, inputs *in)
+{
+    int code = hc_cli_read_sides(cli, &in->sides, in->numbers, "1024");
+    if (code == HC_CLI_DONE && cli->settings.methods != NULL) {
+        code =
+            hc_cli_read_list(cli, &in->casters, "methods", cli->settings.methods, hc_bench_caster);
+    }
+    return code == HC_CLI_DONE ? read_fields(cli, in) : code;
+}
+
+static bool stop_asked(void)
+{
+    return hc_cli_caught_signal() != 0;
+}
+
+static int measure(hc_cli *cli, const inputs *in, report *r)
+{
+    const hc_cli_settings       *settings = &cli->settings;
+    const hc_bench_trace_options options  = { .fields       = in->grounds,
+                                              .field_count  = in->fields.count,
+                                              .sides        = in->numbers,
+                                              .side_count   = in->sides.count,
+                                              .casters      = in->casters.items,
+                                              .caster_count = in->casters.count,
+                                              .seed         = settings->seed,
+                                              .repeat       = settings->repeat,
+                                              .threads      = settings->threads,
+                                              .isa          = settings->map.cone.isa,
+                                              .stop         = stop_asked,
+                                              .row_done     = row_done,
+                                              .user         = r };
+    const hc_result              result   = hc_bench_trace(&options, &cli->log);
+    if (result == HC_OK && r->failed) {
+        return hc_cli_fail_memory(cli);
+    }
+    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+}
+
+static void begin(report *r)
+{
+    hc_bench_machine_read(&r->machine);
+    hc_cli_text(r->cli, "bench", "trace");
+    hc_cli_show_machine(r->cli, &r->machine);
+    r->list = cJSON_AddArrayToObject(r->cli->json, "rows");
+    add_csv(r, "field,side,rays,caster,mode,threads,count,runs,seconds,rays_per_second,hits,"
+               "build_seconds,bytes\n");
+    hc_cli_say(r->cli, "\n%-10s %5s %-7s %-16s %-8s %7s %10s %6s %10s %8s\n", "field", "side",
+               "rays", "caster", "mode", "threads", "Mrays/s", "hits", "build ns", "bytes");
+}
+
+int hc_cli_run_bench_trace(hc_cli *cli)
+{
+    inputs in   = { 0 };
+    report r    = { .cli = cli };
+    int    code = read_inputs(cli, &in);
+    if (code == HC_CLI_DONE) {
+        begin(&r);
+        code = measure(cli, &in, &r);
+    }
+    if (code == HC_CLI_DONE) {
+        add_figures(&r);
+        code = hc_cli_write_reports(cli, r.csv);
+    }
+    for (int i = 0; i < HC_CLI_LIST_MAX; i++) {
+        hc_free_field(&in.tiles[i]);
+    }
+    free(r.rows);
+    free(r.csv);
+    return code;
+}
