@@ -8,7 +8,7 @@
 extern "C" {
 #endif
 
-enum { HC_PEER_MODES = 3 };
+enum { HC_PEER_MODES = 4 };
 
 typedef struct hc_bench_peer {
     const char *name;

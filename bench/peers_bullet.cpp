@@ -83,5 +83,5 @@ void any(const void *scene, int, uint8_t *hit, const hc_ray *rays, size_t count)
 
 } // namespace
 
-extern "C" const hc_bench_peer hc_peer_bullet = { "bullet", { "", nullptr, nullptr }, 64,
+extern "C" const hc_bench_peer hc_peer_bullet = { "bullet", { "", nullptr, nullptr, nullptr }, 64,
                                                   create,   destroy, bytes, nearest, any };

@@ -1,5 +1,5 @@
-/* Embree 3: two triangles a cell, or grids; single rays, packets of sixteen, streams. Without its
- * robust flag, which makes it faster and lets a ray in 10^5 or so through the edges of triangles. */
+/* Embree 3: two triangles a cell, or grids; single rays, packets of sixteen, the same told that they
+ * are coherent, streams. Without its robust flag, which makes it faster and lets a ray in 10^5 or so through the edges of triangles. */
 #include "peers.h"
 #include "trace_rays.h"
 
@@ -9,7 +9,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-enum { SINGLE, PACKETS, STREAMS, WIDTH = 16, STREAM = 256, GRID_MAX = 32767 };
+enum { SINGLE, PACKETS, COHERENT, STREAMS, WIDTH = 16, STREAM = 256, GRID_MAX = 32767 };
 
 typedef struct scene {
     RTCDevice    device;
@@ -161,10 +161,13 @@ static void nearest_single(const scene *s, hc_hit *hits, const hc_ray *rays, siz
     }
 }
 
-static void nearest_packets(const scene *s, hc_hit *hits, const hc_ray *rays, size_t count)
+static void nearest_packets(const scene *s, bool coherent, hc_hit *hits, const hc_ray *rays,
+                            size_t count)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (size_t i = 0; i < count; i += WIDTH) {
         _Alignas(64) struct RTCRayHit16 r;
         _Alignas(64) int                valid[WIDTH];
@@ -204,8 +207,8 @@ static void nearest(const void *state, int mode, hc_hit *hits, const hc_ray *ray
 {
     if (mode == SINGLE) {
         nearest_single(state, hits, rays, count);
-    } else if (mode == PACKETS) {
-        nearest_packets(state, hits, rays, count);
+    } else if (mode == PACKETS || mode == COHERENT) {
+        nearest_packets(state, mode == COHERENT, hits, rays, count);
     } else {
         nearest_streams(state, hits, rays, count);
     }
@@ -222,10 +225,13 @@ static void any_single(const scene *s, uint8_t *hit, const hc_ray *rays, size_t 
     }
 }
 
-static void any_packets(const scene *s, uint8_t *hit, const hc_ray *rays, size_t count)
+static void any_packets(const scene *s, bool coherent, uint8_t *hit, const hc_ray *rays,
+                        size_t count)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
     for (size_t i = 0; i < count; i += WIDTH) {
         _Alignas(64) struct RTCRay16 r;
         _Alignas(64) int             valid[WIDTH];
@@ -259,15 +265,16 @@ static void any(const void *state, int mode, uint8_t *hit, const hc_ray *rays, s
 {
     if (mode == SINGLE) {
         any_single(state, hit, rays, count);
-    } else if (mode == PACKETS) {
-        any_packets(state, hit, rays, count);
+    } else if (mode == PACKETS || mode == COHERENT) {
+        any_packets(state, mode == COHERENT, hit, rays, count);
     } else {
         any_streams(state, hit, rays, count);
     }
 }
 
 const hc_bench_peer hc_peer_embree_triangles = { .name    = "embree-triangles",
-                                                 .modes   = { "single", "packets", "streams" },
+                                                 .modes   = { "single", "packets", "coherent",
+                                                              "streams" },
                                                  .share   = 1,
                                                  .create  = create_triangles,
                                                  .destroy = destroy,
@@ -275,7 +282,8 @@ const hc_bench_peer hc_peer_embree_triangles = { .name    = "embree-triangles",
                                                  .nearest = nearest,
                                                  .any     = any };
 const hc_bench_peer hc_peer_embree_grids     = { .name    = "embree-grids",
-                                                 .modes   = { "single", "packets", "streams" },
+                                                 .modes   = { "single", "packets", "coherent",
+                                                              "streams" },
                                                  .share   = 1,
                                                  .create  = create_grids,
                                                  .destroy = destroy,

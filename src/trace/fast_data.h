@@ -38,7 +38,7 @@ struct hc_fast {
     double         highest;
     bool           steps, open_sides;
     hc_isa         isa;
-    int            levels, first_level; /* where marching begins */
+    int            levels, first_level;   /* where marching begins */
     int32_t        stride[16], start[16]; /* of the levels' blocks; 16 for one vector register  */
     int32_t        mirror_x, mirror_y;    /* width of the padded grid                           */
     float          blur;                  /* [cells] by which marching may misplace a ray       */

@@ -12,6 +12,9 @@
 /* Height above the highest sample where rays enter, so that they enter in the open. */
 static const double HEADROOM = 0x1p-20;
 
+/* A ray that has come out of the ground may seem so far below the next patch. */
+static const double ROUNDING = 0x1p-40;
+
 /* Unlike fmin and fmax these become one instruction; no NaN comes here. */
 static inline double lesser(double a, double b)
 {
@@ -68,15 +71,16 @@ static inline quadratic gap_over(const hc_fast_ray *r, const patch *p, double ce
                         z - (p->h00 + along * x + across * y + twist * x * y) };
 }
 
-/* The first s > 0 where the quadratic comes down to 0 from c > 0 (or leaves c = 0 and comes back);
- * INFINITY if it never does. */
+/* The first s > 0 where the quadratic comes down to 0 from c >= 0; INFINITY if it never does. Both
+ * forms add what has one sign: the other root may be next to 0, where a ray has just come out of the
+ * ground. */
 static inline double first_root(quadratic q)
 {
-    if (q.c == 0.0) {
-        return q.a < 0.0 && q.b > 0.0 ? -q.b / q.a : INFINITY;
-    }
     const double disc = q.b * q.b - 4.0 * q.a * q.c;
-    const double den  = disc >= 0.0 ? sqrt(disc) - q.b : 0.0;
+    if (q.b > 0.0) {
+        return q.a < 0.0 ? (q.b + sqrt(disc)) / (-2.0 * q.a) : INFINITY;
+    }
+    const double den = disc >= 0.0 ? sqrt(disc) - q.b : 0.0;
     return den > 0.0 ? 2.0 * q.c / den : INFINITY;
 }
 
@@ -163,8 +167,8 @@ static inline bool hit_cell(const hc_fast *fast, const hc_fast_ray *r, hc_fast_f
     const patch p      = patch_at(fast, c->cell[0], c->cell[1]);
     quadratic   q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
     const bool  starts = c->enter == r->from;
-    if (starts && r->emerged) {
-        q.c = greater(q.c, 0.0);
+    if (r->emerged && q.b >= 0.0 && q.c > -ROUNDING) {
+        q.c = greater(q.c, 0.0); /* still coming out */
     } else if (q.c <= 0.0) {
         const uint32_t side = starts || fast->steps ? HC_HIT_SIDE : 0;
         *found              = (hc_fast_found){ c->enter, c->cell[0], c->cell[1],
@@ -193,18 +197,23 @@ static inline bool hc_fast_walk(const hc_fast *fast, const hc_fast_ray *r, hc_fa
     return false;
 }
 
-/* Follow a ray that came in through an open side below the surface until it comes out. */
-static inline bool emerge(const hc_fast *fast, hc_fast_ray *r)
+/* Follow a ray that came in through an open side to where it is above the surface; false: it never
+ * is. */
+static inline bool hc_fast_emerge(const hc_fast *fast, hc_fast_ray *r)
 {
     cursor c = cursor_at(fast, r, r->from);
     do {
         const patch     p = patch_at(fast, c.cell[0], c.cell[1]);
         const quadratic q = gap_over(r, &p, c.cell[0], c.cell[1], c.enter);
-        const double    t =
-            q.c > 0.0 ? c.enter
-                         : c.enter + first_root((quadratic){ -q.a, -q.b, greater(-q.c, 0x1p-1000) });
-        if (t <= c.leave) {
-            r->from    = t;
+        if (q.c > 0.0) {
+            r->emerged = c.enter > r->from;
+            r->from    = c.enter;
+            return true;
+        }
+        const double t      = c.enter + first_root((quadratic){ -q.a, -q.b, -q.c });
+        const bool   leaves = q.c < 0.0 ? t <= c.leave : q.b > 0.0 || (q.b == 0.0 && q.a > 0.0);
+        if (leaves) {
+            r->from    = q.c < 0.0 ? t : c.enter;
             r->emerged = true;
             return true;
         }

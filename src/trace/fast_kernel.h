@@ -216,7 +216,7 @@ static void cut_sides(batch *b, int axis, const hc_fast_axis *a)
     }
 }
 
-/* Cut to HC_PERIODS_MAX periods of a wrapped axis. */
+/* Cut to HC_PERIODS_MAX periods of a wrapped axis, from where the ray is over the field. */
 static void cut_periods(batch *b, int axis, const hc_fast_axis *a, double highest)
 {
     for (int i = 0; i < HC_LANES; i++) {
@@ -277,13 +277,17 @@ static void make_ready(job *j)
     b->count            = left < HC_LANES ? (int)left : HC_LANES;
     j->taken += (size_t)b->count;
     place_rays(b, fast, rays);
-    for (int axis = 0; axis < 2; axis++) {
-        const hc_fast_axis *a = axis == 0 ? &fast->x : &fast->y;
-        if (a->wrapped) {
-            cut_periods(b, axis, a, fast->highest);
-        } else {
-            cut_sides(b, axis, a);
-        }
+    if (!fast->x.wrapped) {
+        cut_sides(b, 0, &fast->x);
+    }
+    if (!fast->y.wrapped) {
+        cut_sides(b, 1, &fast->y);
+    }
+    if (fast->x.wrapped) {
+        cut_periods(b, 0, &fast->x, fast->highest);
+    }
+    if (fast->y.wrapped) {
+        cut_periods(b, 1, &fast->y, fast->highest);
     }
     for (int i = 0; i < b->count; i++) {
         b->inside[i] = b->from[i] == (double)rays[i].tmin;
@@ -297,7 +301,7 @@ static void make_ready(job *j)
 
 static void load_ray(hc_fast_ray *r, const batch *b, int k)
 {
-    *r = (hc_fast_ray){ .origin = { b->origin[0][k], b->origin[1][k], b->origin[2][k] },
+    *r = (hc_fast_ray){ .origin    = { b->origin[0][k], b->origin[1][k], b->origin[2][k] },
                         .direction = { b->direction[0][k], b->direction[1][k], b->direction[2][k] },
                         .inverse   = { b->inverse[0][k], b->inverse[1][k] },
                         .from      = b->from[k],
@@ -347,7 +351,12 @@ static bool take_ray(job *j, pack *p, int i)
             continue;
         }
         load_ray(&p->rays[i], b, k);
-        if (b->long_enough[k] != 0 && !j->fast->x.wrapped && !j->fast->y.wrapped) {
+        if (j->fast->open_sides && !p->rays[i].inside && !hc_fast_emerge(j->fast, &p->rays[i])) {
+            answer_ray(j, p->which[i], NULL, NULL, 0, 0);
+            continue;
+        }
+        if (b->long_enough[k] != 0 && !p->rays[i].emerged && !j->fast->x.wrapped
+            && !j->fast->y.wrapped) {
             load_lane(j->fast, p, i, b, k);
             return true;
         }
@@ -465,6 +474,14 @@ static inline unsigned march(const hc_fast *fast, pack *p, unsigned active, bool
     return fine;
 }
 
+/* Lanes that rounding has put beyond the last cell. */
+static inline unsigned find_outside(const pack *p, const place *at)
+{
+    const hc_i x = hc_i_add(hc_i_xor(at->at_x, hc_i_load(p->flip_x)), hc_i_load(p->add_x));
+    const hc_i y = hc_i_add(hc_i_xor(at->at_y, hc_i_load(p->flip_y)), hc_i_load(p->add_y));
+    return hc_i_differ(x, at->cell_x) | hc_i_differ(y, at->cell_y);
+}
+
 typedef struct corners {
     hc_v h00, h10, h01, h11; /* of the mirrored cell */
 } corners;
@@ -531,7 +548,7 @@ static inline unsigned look(const hc_fast *fast, pack *p, unsigned lanes, float 
     const hc_v twist = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
     const hc_v bulge = hc_v_mul(hc_v_mul(hc_v_abs(twist), hc_v_set(0.25F)), hc_v_mul(run_x, run_y));
     const hc_v gap   = hc_v_sub(hc_v_min(enter, leave), bulge);
-    const unsigned clear = hc_v_greater(gap, slack) & lanes;
+    const unsigned clear = hc_v_greater(gap, slack) & lanes & ~find_outside(p, &at);
     hc_v_store(p->s, hc_v_pick(clear, hc_v_add(at.s, out), at.s));
     hc_i_store(p->crossings,
                hc_i_add(hc_i_load(p->crossings), hc_i_pick(clear, hc_i_set(1), hc_i_set(0))));
