@@ -12,8 +12,9 @@
 /* Height above the highest sample where rays enter, so that they enter in the open. */
 static const double HEADROOM = 0x1p-20;
 
-/* A ray that has come out of the ground may seem so far below the next patch. */
-static const double ROUNDING = 0x1p-40;
+/* A ray that has come out of the ground may seem so far below the next patch, for each cell (and
+ * height) that its origin is away. */
+static const double ROUNDING = 0x1p-46;
 
 /* Unlike fmin and fmax these become one instruction; no NaN comes here. */
 static inline double lesser(double a, double b)
@@ -153,7 +154,7 @@ static inline bool step(const hc_fast *fast, const hc_fast_ray *r, cursor *c)
     const double tx   = slab_leave(r, 0, c->cell[0]);
     const double ty   = slab_leave(r, 1, c->cell[1]);
     const int    axis = ty < tx;
-    if (c->leave >= r->to || isinf(lesser(tx, ty))) {
+    if (!(lesser(tx, ty) <= r->to) || isinf(lesser(tx, ty))) {
         return false;
     }
     c->cell[axis] += r->direction[axis] > 0.0 ? 1.0 : -1.0;
@@ -164,10 +165,11 @@ static inline bool step(const hc_fast *fast, const hc_fast_ray *r, cursor *c)
 static inline bool hit_cell(const hc_fast *fast, const hc_fast_ray *r, hc_fast_found *found,
                             const cursor *c)
 {
-    const patch p      = patch_at(fast, c->cell[0], c->cell[1]);
-    quadratic   q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
-    const bool  starts = c->enter == r->from;
-    if (r->emerged && q.b >= 0.0 && q.c > -ROUNDING) {
+    const patch  p      = patch_at(fast, c->cell[0], c->cell[1]);
+    quadratic    q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
+    const bool   starts = c->enter == r->from;
+    const double away   = 1.0 + fabs(r->origin[0]) + fabs(r->origin[1]) + fabs(r->origin[2]);
+    if (r->emerged && q.b >= 0.0 && q.c > -ROUNDING * away) {
         q.c = greater(q.c, 0.0); /* still coming out */
     } else if (q.c <= 0.0) {
         const uint32_t side = starts || fast->steps ? HC_HIT_SIDE : 0;

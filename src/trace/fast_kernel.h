@@ -633,7 +633,8 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
     pack     packs[PACKS];
     unsigned busy = 0;
     for (int k = 0; k < PACKS; k++) {
-        packs[k].near   = 0;
+        /* idle lanes are computed too: their levels must be some level */
+        memset(&packs[k], 0, sizeof packs[k]);
         packs[k].active = refill(&j, &packs[k], ALL_LANES);
         busy |= (unsigned)(packs[k].active != 0) << k;
     }
