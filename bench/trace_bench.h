@@ -13,7 +13,7 @@ typedef struct hc_bench_trace_row {
     int         threads;
     size_t      count; /* rays of one run                                            */
     int         runs;
-    double      seconds; /* of one run, the fastest                                    */
+    double      seconds; /* of one run, the fastest; processor time on one thread      */
     double      rays_per_second;
     double      hits;          /* share of rays that hit                                     */
     double      build_seconds; /* processor time                                             */
