@@ -88,8 +88,26 @@ class Bench(Case):
         self.refused("bench", "bake", "--json", "report.json", code=INPUT_OUTPUT,
                      says="--overwrite")
 
+    def test_rays(self):
+        self.run_program("gen", "fbm", "hills.png", "--size", "40x30")
+        table = self.text("bench", "trace", "--sizes", "24", "--field", "fbm,hills.png",
+                          "--methods", "fast", "--repeat", "1", "--csv", "rays.csv",
+                          "--json", "rays.json")
+        rows = json.loads(self.path("rays.json").read_text())["rows"]
+        self.assertEqual({row["field"] for row in rows}, {"fbm", "hills.png"})
+        self.assertEqual({row["rays"] for row in rows},
+                         {"fly", "walk", "sight", "shadow", "random"})
+        self.assertEqual({row["threads"] for row in rows}, {1, 2})
+        for row in rows:
+            self.assertGreater(row["rays_per_second"], 0)
+            self.assertGreater(row["hits"], 0)
+        with open(self.path("rays.csv"), newline="") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), len(rows))
+        self.assertNotIn("nan", table)
+
     def test_usage(self):
-        self.refused("bench", "trace", code=USAGE, says="'trace'")
+        self.refused("bench", "render", code=USAGE, says="'render'")
+        self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")
         self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])
         self.refused("bench", "--sizes", "16,", code=USAGE, says="--sizes 16,")
         self.refused("bench", "--sizes", "9999999", code=USAGE, says="1048576")

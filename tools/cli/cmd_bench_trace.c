@@ -122,35 +122,44 @@ static const hc_bench_trace_row *other_threads(const report *r, const hc_bench_t
     return NULL;
 }
 
-/* What `fast` reaches over the best of the others, and with several threads over one. */
+static void add_figure(report *r, cJSON *list, const hc_bench_trace_row *row)
+{
+    const hc_bench_trace_row *other  = best_other(r, row);
+    const hc_bench_trace_row *more   = other_threads(r, row);
+    cJSON                    *object = cJSON_CreateObject();
+    (void)cJSON_AddStringToObject(object, "field", row->field);
+    (void)cJSON_AddNumberToObject(object, "side", row->side);
+    (void)cJSON_AddStringToObject(object, "rays", row->rays);
+    hc_cli_say(r->cli, "%-10s %5d %-7s", row->field, row->side, row->rays);
+    if (more != NULL) {
+        const double gain = more->rays_per_second / row->rays_per_second;
+        (void)cJSON_AddNumberToObject(object, "threads_speedup", gain);
+        hc_cli_say(r->cli, " %10.2f", gain);
+    } else {
+        hc_cli_say(r->cli, " %10s", "");
+    }
+    if (other != NULL) {
+        const double ratio    = row->rays_per_second / other->rays_per_second;
+        char         name[64] = "";
+        (void)snprintf(name, sizeof name, "%s %s", other->caster, other->mode);
+        (void)cJSON_AddStringToObject(object, "best_other", name);
+        (void)cJSON_AddNumberToObject(object, "ratio", ratio);
+        hc_cli_say(r->cli, " %10.2f  %s", ratio, name);
+    }
+    hc_cli_say(r->cli, "\n");
+    (void)cJSON_AddItemToArray(list, object);
+}
+
+/* What `fast` reaches with several threads over one, and over the best of the others. */
 static void add_figures(report *r)
 {
     cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
-    hc_cli_say(r->cli, "\n%-10s %5s %-7s %-26s %6s %8s\n", "field", "side", "rays", "best other",
-               "ratio", "threads");
+    hc_cli_say(r->cli, "\n%-10s %5s %-7s %10s %10s  %s\n", "field", "side", "rays", "threads",
+               "over best", "other caster (make bench-peers)");
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_trace_row *row   = &r->rows[i];
-        const hc_bench_trace_row *other = best_other(r, row);
-        const hc_bench_trace_row *more  = other_threads(r, row);
-        if (strcmp(row->caster, "fast") != 0 || row->threads != 1) {
-            continue;
+        if (strcmp(r->rows[i].caster, "fast") == 0 && r->rows[i].threads == 1) {
+            add_figure(r, list, &r->rows[i]);
         }
-        const double ratio    = other == NULL ? NAN : row->rays_per_second / other->rays_per_second;
-        const double gain     = more == NULL ? NAN : more->rays_per_second / row->rays_per_second;
-        cJSON       *object   = cJSON_CreateObject();
-        char         name[64] = "";
-        if (other != NULL) {
-            (void)snprintf(name, sizeof name, "%s %s", other->caster, other->mode);
-        }
-        (void)cJSON_AddStringToObject(object, "field", row->field);
-        (void)cJSON_AddNumberToObject(object, "side", row->side);
-        (void)cJSON_AddStringToObject(object, "rays", row->rays);
-        (void)cJSON_AddStringToObject(object, "best_other", name);
-        (void)cJSON_AddNumberToObject(object, "ratio", ratio);
-        (void)cJSON_AddNumberToObject(object, "threads_speedup", gain);
-        (void)cJSON_AddItemToArray(list, object);
-        hc_cli_say(r->cli, "%-10s %5d %-7s %-26s %6.2f %8.2f\n", row->field, row->side, row->rays,
-                   name, ratio, gain);
     }
 }
 
