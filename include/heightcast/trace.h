@@ -37,7 +37,7 @@ extern "C" {
  * cone-exact     texel-wide steps with a back-off             l2 ratios        Dummer 2006, exact
  * relaxed        relaxed cone steps, then bisection           relaxed ratios   GPU Gems 3, 18
  * robust         3 x 3 minimum of the cones, at least to the  l2 ratios        Robust Cone Step
- *                wall of the texel                                             Mapping 2024
+ *                wall of the texel, then secant or bisection                   Mapping 2024
  * quick          cone steps until below or `steps`, then      l2 ratios        2022 (secant,
  *                secant or bisection                                           binary)
  *
@@ -84,8 +84,8 @@ typedef struct hc_trace_options {
     int             steps;      /* steps along the ray of methods that count them
                                    [1 .. 65536]  0: 10 (cone-fixed), 32 (linear, relief,
                                    occlusion), 256 (cone-loop, cone-exact, robust, quick, relaxed)*/
-    int             refinements; /* bisections of relief, relaxed and quick  [0 .. 64]
-                                   -1: secant (quick); 0: 6                                       */
+    int             refinements; /* bisections of relief, relaxed, robust and quick  [1 .. 64]
+                                   -1: one secant instead; 0: 6                                   */
     hc_isa          isa;         /* kernels of fast                                               */
     int             threads;     /* for building  [0 .. 1024]  0: one per core                    */
 } hc_trace_options;

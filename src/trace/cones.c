@@ -109,13 +109,7 @@ static double filtered(const hc_tracer *tracer, const hc_path *path, const hc_im
 static void stop_refined(const hc_tracer *tracer, const hc_path *path, hc_found *found,
                          const march *m)
 {
-    const int times = tracer->options.refinements;
-    double    s     = m->s;
-    if (m->gap <= 0.0) {
-        s = times < 0 ? hc_image_secant(tracer, path, m->above, m->s)
-                      : hc_image_bisect(tracer, path, m->above, m->s, times);
-        found->steps += (uint32_t)(times < 0 ? 1 : times);
-    }
+    const double s = m->gap <= 0.0 ? hc_image_refine(tracer, path, found, m->above, m->s) : m->s;
     stop(tracer, path, found, m, s, m->gap <= ARRIVED);
 }
 
@@ -157,15 +151,19 @@ static double to_cell_wall(const hc_path *path, double s)
     return fmax(nearest, 0.0);
 }
 
+/* Upright rays come to no wall; their cone step ends on the surface itself. */
+
 static double cone_or_wall(const hc_tracer *tracer, const hc_path *path, const hc_image_ray *ray,
                            const march *m)
 {
     const double cone = cone_step(path, ray, m->gap, least_around(tracer, path, m->s));
-    return fmax(cone, to_cell_wall(path, m->s) + OVER_WALL / ray->length);
+    const double wall = to_cell_wall(path, m->s) + OVER_WALL / ray->length;
+    return wall < INFINITY ? fmax(cone, wall) : cone;
 }
 
+/* A step to the wall may end far under the surface, but only in one cell: that bracket is refined. */
 void hc_march_robust(const hc_tracer *tracer, const hc_path *path, hc_found *found)
 {
     const march m = march_by(cone_or_wall, tracer, path, found);
-    stop(tracer, path, found, &m, m.s, m.gap <= 0.0);
+    stop_refined(tracer, path, found, &m);
 }

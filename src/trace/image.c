@@ -52,10 +52,16 @@ void hc_image_stop(const hc_tracer *tracer, const hc_path *path, hc_found *found
     found->flags = flags;
 }
 
-double hc_image_bisect(const hc_tracer *tracer, const hc_path *path, double above, double below,
-                       int times)
+double hc_image_secant(const hc_tracer *tracer, const hc_path *path, double above, double below)
 {
-    for (int i = 0; i < times; i++) {
+    const double over  = hc_image_gap(tracer, path, above);
+    const double under = hc_image_gap(tracer, path, below);
+    return over > under ? above + (below - above) * (over / (over - under)) : below;
+}
+
+static double bisect(const hc_tracer *tracer, const hc_path *path, double above, double below)
+{
+    for (int i = 0; i < tracer->options.refinements; i++) {
         const double middle = above + 0.5 * (below - above);
         if (hc_image_gap(tracer, path, middle) > 0.0) {
             above = middle;
@@ -66,9 +72,11 @@ double hc_image_bisect(const hc_tracer *tracer, const hc_path *path, double abov
     return below;
 }
 
-double hc_image_secant(const hc_tracer *tracer, const hc_path *path, double above, double below)
+double hc_image_refine(const hc_tracer *tracer, const hc_path *path, hc_found *found, double above,
+                       double below)
 {
-    const double over  = hc_image_gap(tracer, path, above);
-    const double under = hc_image_gap(tracer, path, below);
-    return over > under ? above + (below - above) * (over / (over - under)) : below;
+    const int times = tracer->options.refinements;
+    found->steps += (uint32_t)(times < 0 ? 1 : times);
+    return times < 0 ? hc_image_secant(tracer, path, above, below)
+                     : bisect(tracer, path, above, below);
 }

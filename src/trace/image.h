@@ -26,9 +26,10 @@ void hc_image_stop(const hc_tracer *tracer, const hc_path *path, hc_found *found
                    uint32_t flags);
 
 /* A bracket: above the surface at `above`, at or under it at `below`. Both return a place in it:
- * the last one found at or under the surface, and where the line between the ends comes down. */
-double hc_image_bisect(const hc_tracer *tracer, const hc_path *path, double above, double below,
-                       int times);
+ * where the line between the ends comes down; and that, or what options.refinements bisections
+ * found last at or under the surface, with the steps that it took. */
 double hc_image_secant(const hc_tracer *tracer, const hc_path *path, double above, double below);
+double hc_image_refine(const hc_tracer *tracer, const hc_path *path, hc_found *found, double above,
+                       double below);
 
 #endif

@@ -47,11 +47,9 @@ void hc_march_linear(const hc_tracer *tracer, const hc_path *path, hc_found *fou
 
 void hc_march_relief(const hc_tracer *tracer, const hc_path *path, hc_found *found)
 {
-    const int     times = tracer->options.refinements;
-    const bracket b     = first_below(tracer, path, found);
+    const bracket b = first_below(tracer, path, found);
     if (b.below < INFINITY) {
-        found->steps += (uint32_t)times;
-        hc_image_stop(tracer, path, found, hc_image_bisect(tracer, path, b.above, b.below, times),
+        hc_image_stop(tracer, path, found, hc_image_refine(tracer, path, found, b.above, b.below),
                       0);
     }
 }
