@@ -41,21 +41,46 @@ typedef struct agree_scene {
     hc_reference_options surface; /* rise and reach: of the tracer, both > 0 */
 } agree_scene;
 
-/* The judge, two one-sided claims: the hit is not before the first one on the surface raised by the
- * tracer's tolerance, and not after the first one on the surface lowered by it. Fails the test with
- * everything that is needed to repeat the case. A ray that comes in under the surface through an
- * open side may come up from some of the surfaces and not from others, and the claims need not hold:
- * then the reference on the surface as it is must say the same. *undecided counts these rays. */
-void agree_judge(const agree_scene *scene, const hc_ray *ray, const hc_hit *hit, bool found,
-                 size_t *undecided);
-
+/* How a method stands. */
 typedef struct agree_score {
     size_t fired, found, undecided;
+    size_t lost;  /* later than on the lowered surface, or not at all */
+    size_t early; /* before the raised surface, or made up            */
+    size_t odd;   /* functions that do not agree, or a hit that does not lie on the surface */
+    double off;   /* largest distance in height of a hit on a patch from the surface there  */
+    char   complaint[512]; /* all that is needed to repeat the first that is wrong */
 } agree_score;
 
-/* Build the tracer (baking what its method needs), fire `count` rays of each set, through all
- * functions that trace, which must agree bit for bit, and judge each; adds to *score. */
-void agree_fire(agree_score *score, const hc_field *field, const char *kind,
-                const hc_trace_options *options, hc_cones cones, size_t count, uint64_t *random);
+/* The judge, two one-sided claims: the hit is not before the first one on the surface raised by the
+ * tracer's tolerance, and not after the first one on the surface lowered by it. A ray that comes in
+ * under the surface through an open side may come up from some of the surfaces and not from others,
+ * and the claims need not hold: then the reference on the surface as it is must say the same, and
+ * the ray counts as undecided. Adds to *score. */
+void agree_judge(agree_score *score, const agree_scene *scene, const hc_ray *ray, const hc_hit *hit,
+                 bool found);
+
+/* Fails the test if anything was wrong. */
+void agree_expect_right(const agree_score *score);
+
+enum { AGREE_METHODS_MAX = 4 };
+
+typedef struct agree_volley {
+    const hc_field  *field;
+    const char      *kind;
+    hc_trace_options options; /* but for the method, the ratios and the cones */
+    hc_cones         cones;   /* l1 or quad, for those that need cells' ratios */
+    int              method_count;
+    hc_trace_method  methods[AGREE_METHODS_MAX];
+    size_t           count; /* rays of each set */
+    int              threads;
+    /* Hits whose t is that of the surface as it is, rounded, are right without the other two
+     * surfaces: the reference orders the three, which others of these tests see to. */
+    bool trust_equal;
+} agree_volley;
+
+/* Build the tracers (baking what they need), fire the same rays with all of them, through all
+ * functions that trace, which must agree bit for bit, and judge each; adds to scores[method_count].
+ * The same rays for every number of threads. */
+void agree_fire(agree_score *scores, const agree_volley *volley, uint64_t *random);
 
 #endif

@@ -298,7 +298,7 @@ void agree_free(hc_field *field)
 
 const char *agree_describe(const char *kind, const hc_field *field)
 {
-    static char text[128];
+    static _Thread_local char text[128];
     (void)snprintf(text, sizeof text, "%s %dx%d wrap %s %s", kind, field->width, field->height,
                    hc_wrap_name(field->wrap), hc_registration_name(field->registration));
     return text;

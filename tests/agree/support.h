@@ -55,7 +55,8 @@ hc_field agree_make_field(agree_shape shape, int kind, uint64_t seed, hc_wrap wr
 hc_field agree_named_field(const char *name, int width, int height, uint64_t seed, hc_wrap wrap);
 void     agree_free(hc_field *field);
 
-/* "funnel 17x3 wrap uv grid", for messages. Static; each call overwrites the last. */
+/* "funnel 17x3 wrap uv grid", for messages. Static; each call
+ * overwrites the last of the thread. */
 const char *agree_describe(const char *kind, const hc_field *field);
 
 /* ---- bakes ---------------------------------------------------------------------------------- */

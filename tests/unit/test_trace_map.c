@@ -46,7 +46,7 @@ static void judge_map(const hc_map *map, hc_trace_method method, uint64_t *rando
                                        .method = hc_trace_method_name(method) };
     hc_log                 log     = { .text = "" };
     hc_tracer             *tracer;
-    size_t                 undecided = 0;
+    agree_score            score = { .fired = 0 };
     if (hc_tracer_create_from_map(&tracer, map, &options, &log) != HC_OK) {
         fail_msg("%s", log.text);
     }
@@ -55,8 +55,9 @@ static void judge_map(const hc_map *map, hc_trace_method method, uint64_t *rando
         const hc_ray ray = agree_ray(&field, (agree_rays)(i % RAYS_SETS), random);
         hc_hit       hit;
         const bool   found = hc_trace_nearest(tracer, &hit, &ray);
-        agree_judge(&scene, &ray, &hit, found, &undecided);
+        agree_judge(&score, &scene, &ray, &hit, found);
     }
+    agree_expect_right(&score);
     hc_tracer_destroy(tracer);
     agree_free(&field);
 }
