@@ -1,9 +1,10 @@
 # A thin door to CMake: the presets of CMakePresets.json do the work.
 PREFIX ?= /usr/local
 FUZZ_SECONDS ?= 60
-export FUZZ_SECONDS
+SOAK_RAYS ?= 100000000
+export FUZZ_SECONDS SOAK_RAYS
 
-.PHONY: all demo test fuzz bench bench-peers gallery lint install clean
+.PHONY: all demo test soak fuzz bench bench-peers gallery lint install clean
 
 # build/heightcast and the libraries; the tests need more packages
 all:
@@ -23,6 +24,11 @@ demo:
 test:
 	@scripts/install_deps.sh test
 	@scripts/test.sh
+
+# SOAK_RAYS rays against the reference
+soak:
+	@scripts/install_deps.sh test
+	@scripts/soak.sh
 
 # each file reader for FUZZ_SECONDS
 fuzz:

@@ -48,7 +48,9 @@ static void judge_place(agree_score *score, const agree_scene *scene, const hc_r
                          + fmax(fabs(v), 1.0) / hc_field_step_v(scene->field);
     const double bound = 0x1p-24 * (1.0 + cells) + scene->surface.rise + 2.0 * scene->surface.reach;
     const double error = fabs((double)hit->height - hc_field_surface(scene->field, u, v));
-    score->off         = fmax(score->off, error);
+    if (fmax(fabs(u), fabs(v)) <= 1.0) { /* farther out floats cannot tell cells apart */
+        score->off = fmax(score->off, error);
+    }
     if (!(error <= bound)) {
         score->odd++;
         complain(score, scene, ray, error, "off the surface is more than", bound);

@@ -47,7 +47,7 @@ typedef struct agree_score {
     size_t lost;  /* later than on the lowered surface, or not at all */
     size_t early; /* before the raised surface, or made up            */
     size_t odd;   /* functions that do not agree, or a hit that does not lie on the surface */
-    double off;   /* largest distance in height of a hit on a patch from the surface there  */
+    double off;   /* largest distance in height of a hit on a patch, in the first period, from  */
     char   complaint[512]; /* all that is needed to repeat the first that is wrong */
 } agree_score;
 
