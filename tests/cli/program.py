@@ -4,9 +4,11 @@ import ast
 import json
 import os
 import pathlib
+import re
 import struct
 import subprocess
 import tempfile
+import time
 import unittest
 
 PROGRAM = os.environ["HEIGHTCAST"]
@@ -57,6 +59,17 @@ class Case(unittest.TestCase):
         for words in [says] if isinstance(says, str) else says:
             self.assertIn(words, error)
         return error
+
+    def wait_until_it_catches(self, running, number, patience=60):
+        """Until the program has its handler for a signal: how long that takes nobody knows."""
+        for _ in range(100 * patience):
+            self.assertIsNone(running.poll(), "it was too fast to be stopped")
+            status = pathlib.Path(f"/proc/{running.pid}/status").read_text()
+            caught = int(re.search(r"(?m)^SigCgt:\s*([0-9a-f]+)$", status)[1], 16)
+            if caught >> (number - 1) & 1:
+                return
+            time.sleep(0.01)
+        self.fail(f"no handler for signal {number}")
 
     def files(self):
         return sorted(path.name for path in self.folder.iterdir())

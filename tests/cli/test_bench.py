@@ -118,8 +118,8 @@ class Bench(Case):
         running = subprocess.Popen(
             [PROGRAM, "bench", "bake", "--sizes", "1024", "--methods", "brute", "--csv", "a.csv"],
             cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        time.sleep(0.7)
-        self.assertIsNone(running.poll())
+        self.wait_until_it_catches(running, signal.SIGINT)
+        time.sleep(0.3)  # until it measures
         running.send_signal(signal.SIGINT)
         _, stderr = running.communicate(timeout=30)
         self.assertEqual(running.returncode, 130, stderr)
