@@ -57,10 +57,16 @@ static void judge_place(agree_score *score, const agree_scene *scene, const hc_r
     }
 }
 
+static bool about(double a, double b, double slack)
+{
+    return a == b || fabs(a - b) <= slack + 0x1p-23 * fabs(a);
+}
+
 /* For rays that come in through an open side under the raised surface, which may come up from one
- * of the surfaces and not from the others: does the reference, on the surface as it is, say the same
- * as the tracer? */
-static bool excused_under(const agree_scene *scene, const hc_ray *ray, double t, double slack)
+ * of the surfaces and not from another: what the reference says on the surface as it is, is right.
+ * Something else is wrong only where the moved surfaces agree with that one. */
+static bool excused_under(agree_score *score, const agree_scene *scene, const hc_ray *ray, double t,
+                          double first, double last)
 {
     agree_scene closed        = *scene;
     closed.surface.open_sides = false;
@@ -69,8 +75,14 @@ static bool excused_under(const agree_scene *scene, const hc_ray *ray, double t,
     if (!scene->surface.open_sides || side == INFINITY || hit.steps != 1) {
         return false;
     }
-    const double same = reference(scene, ray, 0.0, &hit);
-    return same == t || fabs(same - t) <= slack + 0x1p-23 * fabs(same);
+    const double slack = 0x1p-50 * fabs((double)ray->tmin);
+    const double exact = reference(scene, ray, 0.0, &hit);
+    if (about(exact, t, slack)) {
+        return true;
+    }
+    const bool agreed = about(exact, first, slack) && about(exact, last, slack);
+    score->undecided += agreed ? 0 : 1;
+    return !agreed;
 }
 
 static void judge_time(agree_score *score, const agree_scene *scene, const hc_ray *ray, double t)
@@ -84,8 +96,7 @@ static void judge_time(agree_score *score, const agree_scene *scene, const hc_ra
     const double after  = last < INFINITY ? last + 0x1p-50 * (fabs(last) + least) : INFINITY;
     const bool   early  = !(t >= (double)(float)before);
     const bool late = !(t <= (double)(float)after || (t == INFINITY && after >= (double)ray->tmax));
-    if ((early || late) && excused_under(scene, ray, t, 0x1p-50 * least)) {
-        score->undecided++;
+    if ((early || late) && excused_under(score, scene, ray, t, first, last)) {
         return;
     }
     if (early) {

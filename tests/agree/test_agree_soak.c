@@ -160,7 +160,7 @@ static void no_ray_is_lost_or_early(void **state)
     for (int m = 0; m < SURE; m++) {
         agree_expect_right(&c->scores[m]);
         assert_true(c->scores[m].found > c->scores[m].fired / 5);
-        assert_true(c->scores[m].undecided < c->scores[m].fired / 100);
+        assert_true(c->scores[m].undecided <= 2 + c->scores[m].fired / 100000);
     }
 }
 
