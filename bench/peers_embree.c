@@ -1,5 +1,6 @@
-/* Embree 3: two triangles a cell, or grids; single rays, packets of sixteen, the same told that they
- * are coherent, streams. Without its robust flag, which makes it faster and lets a ray in 10^5 or so through the edges of triangles. */
+/* Embree 3: two triangles a cell, or grids; single rays, packets of sixteen, the same told that
+ * they are coherent, streams. Without its robust flag, which makes it faster and lets a ray in 10^5 or so
+ * through the edges of triangles. */
 #include "peers.h"
 #include "trace_rays.h"
 
@@ -150,10 +151,18 @@ static void put(hc_hit *hit, float t, unsigned geometry, unsigned cell, float u,
     *hit             = (hc_hit){ .t = found ? t : INFINITY, .u = u, .v = v, .cell_x = (int)cell };
 }
 
-static void nearest_single(const scene *s, hc_hit *hits, const hc_ray *rays, size_t count)
+static struct RTCIntersectContext context_of(bool coherent)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    context.flags =
+        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    return context;
+}
+
+static void nearest_single(const scene *s, hc_hit *hits, const hc_ray *rays, size_t count)
+{
+    struct RTCIntersectContext context = context_of(false);
     for (size_t i = 0; i < count; i++) {
         struct RTCRayHit r = { .ray = ray_of(&rays[i]), .hit.geomID = RTC_INVALID_GEOMETRY_ID };
         rtcIntersect1(s->scene, &context, &r);
@@ -164,10 +173,7 @@ static void nearest_single(const scene *s, hc_hit *hits, const hc_ray *rays, siz
 static void nearest_packets(const scene *s, bool coherent, hc_hit *hits, const hc_ray *rays,
                             size_t count)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCIntersectContext context = context_of(coherent);
     for (size_t i = 0; i < count; i += WIDTH) {
         _Alignas(64) struct RTCRayHit16 r;
         _Alignas(64) int                valid[WIDTH];
@@ -187,8 +193,7 @@ static void nearest_packets(const scene *s, bool coherent, hc_hit *hits, const h
 static void nearest_streams(const scene *s, hc_hit *hits, const hc_ray *rays, size_t count)
 {
     struct RTCRayHit           r[STREAM];
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    struct RTCIntersectContext context = context_of(false);
     for (size_t i = 0; i < count; i += STREAM) {
         const size_t n = count - i < STREAM ? count - i : STREAM;
         for (size_t k = 0; k < n; k++) {
@@ -216,8 +221,7 @@ static void nearest(const void *state, int mode, hc_hit *hits, const hc_ray *ray
 
 static void any_single(const scene *s, uint8_t *hit, const hc_ray *rays, size_t count)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    struct RTCIntersectContext context = context_of(false);
     for (size_t i = 0; i < count; i++) {
         struct RTCRay r = ray_of(&rays[i]);
         rtcOccluded1(s->scene, &context, &r);
@@ -228,10 +232,7 @@ static void any_single(const scene *s, uint8_t *hit, const hc_ray *rays, size_t 
 static void any_packets(const scene *s, bool coherent, uint8_t *hit, const hc_ray *rays,
                         size_t count)
 {
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags =
-        coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    struct RTCIntersectContext context = context_of(coherent);
     for (size_t i = 0; i < count; i += WIDTH) {
         _Alignas(64) struct RTCRay16 r;
         _Alignas(64) int             valid[WIDTH];
@@ -247,8 +248,7 @@ static void any_packets(const scene *s, bool coherent, uint8_t *hit, const hc_ra
 static void any_streams(const scene *s, uint8_t *hit, const hc_ray *rays, size_t count)
 {
     struct RTCRay              r[STREAM];
-    struct RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
+    struct RTCIntersectContext context = context_of(false);
     for (size_t i = 0; i < count; i += STREAM) {
         const size_t n = count - i < STREAM ? count - i : STREAM;
         for (size_t k = 0; k < n; k++) {

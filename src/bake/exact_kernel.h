@@ -386,36 +386,41 @@ typedef struct choice {
     int32_t blocks[HC_LIST + 32];
 } choice;
 
-INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list, choice *chosen)
+/* By the envelope, sixteen at a time, then one by one; they are looked into later. No branch depends
+ * on what is found: nobody could predict it. */
+INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list, bool near,
+                          choice *chosen)
 {
-    const envelope hull = draw_envelope(t, part, 1);
-    chosen->count       = 0;
+    const envelope hull     = draw_envelope(t, part, 1);
+    const int      x        = t->x + 4 * (part & 1);
+    const int      y        = t->y + 4 * (part >> 1);
+    int            promised = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
         const offsets  o     = block_offsets(t, part, list, first);
         const hc_v     tops  = hc_v_load(list->top + first);
         const unsigned found = promising(k, t, &hull, o.across, o.down, tops, 4, 4) & o.listed;
-        chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found & ~known_lanes(t, &o),
-                                       LANE_INDEX, first);
+        promised += hc_pack_lanes(chosen->blocks + promised, found & ~known_lanes(t, &o),
+                                  LANE_INDEX, first);
+    }
+    chosen->count = 0;
+    for (int i = 0; i < promised; i++) {
+        const int b                   = chosen->blocks[i];
+        chosen->blocks[chosen->count] = b;
+        chosen->count +=
+            near ? near_needed(t, part, 4 * list->x[b] - x, 4 * list->y[b] - y, list->top[b])
+                 : distant_needed(k, t, part, 4 * list->x[b], 4 * list->y[b], list->top[b]);
     }
 }
 
-/* Both searches first say which blocks are needed, and then look into those: two loops without
- * branches that nobody can predict. */
 INLINE void search_near(kind k, tile *t, int part)
 {
     const hc_node_list *list = &t->scratch->near;
     const int           x    = t->x + 4 * (part & 1);
     const int           y    = t->y + 4 * (part >> 1);
+    hc_v                S    = t->S[part];
     choice              chosen;
-    choose_blocks(k, t, part, list, &chosen);
-    int needed = 0;
+    choose_blocks(k, t, part, list, true, &chosen);
     for (int i = 0; i < chosen.count; i++) {
-        const int b           = chosen.blocks[i];
-        chosen.blocks[needed] = b;
-        needed += near_needed(t, part, 4 * list->x[b] - x, 4 * list->y[b] - y, list->top[b]);
-    }
-    hc_v S = t->S[part];
-    for (int i = 0; i < needed; i++) {
         const int b = chosen.blocks[i];
         S           = take_near(S, t->height[part], t->pass->near,
                                 hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]),
@@ -429,14 +434,8 @@ INLINE void search_distant(kind k, tile *t, int part)
 {
     const hc_node_list *list = &t->scratch->lists[0];
     choice              chosen;
-    choose_blocks(k, t, part, list, &chosen);
-    int needed = 0;
+    choose_blocks(k, t, part, list, false, &chosen);
     for (int i = 0; i < chosen.count; i++) {
-        const int b           = chosen.blocks[i];
-        chosen.blocks[needed] = b;
-        needed += distant_needed(k, t, part, 4 * list->x[b], 4 * list->y[b], list->top[b]);
-    }
-    for (int i = 0; i < needed; i++) {
         const int b = chosen.blocks[i];
         search_distant_block(k, t, part, 4 * list->x[b], 4 * list->y[b],
                              hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]));

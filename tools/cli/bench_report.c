@@ -14,17 +14,17 @@ static double ns_per_texel(const hc_bench_row *row)
 
 /* ---- CSV ---- */
 
-static void add_csv(hc_cli_bench *bench, const char *line)
+void hc_cli_csv_add(hc_cli_csv *csv, const char *line)
 {
     const size_t length = strlen(line);
-    char        *grown  = realloc(bench->csv, bench->csv_size + length + 1);
+    char        *grown  = realloc(csv->text, csv->size + length + 1);
     if (grown == NULL) {
-        bench->failed = true;
+        csv->failed = true;
         return;
     }
-    memcpy(grown + bench->csv_size, line, length + 1);
-    bench->csv = grown;
-    bench->csv_size += length;
+    memcpy(grown + csv->size, line, length + 1);
+    csv->text = grown;
+    csv->size += length;
 }
 
 /* Figures that are not known stay empty. */
@@ -52,7 +52,7 @@ static void add_csv_row(hc_cli_bench *bench, const hc_bench_row *row)
         number_or_nothing(kept, sizeof kept, 9, row->mean_kept),
         number_or_nothing(wider, sizeof wider, 9, row->wider), machine->cpu, machine->system,
         machine->compiler, machine->commit, hc_version());
-    add_csv(bench, line);
+    hc_cli_csv_add(&bench->csv, line);
 }
 
 /* ---- the head ---- */
@@ -78,13 +78,14 @@ int hc_cli_bench_begin(hc_cli_bench *bench)
     hc_cli_text(cli, "bench", "bake");
     hc_cli_show_machine(cli, &bench->machine);
     bench->list = cJSON_AddArrayToObject(cli->json, "rows");
-    add_csv(bench, "field,side,method,cones,threads,runs,seconds,fastest,slowest,processor_seconds,"
+    hc_cli_csv_add(&bench->csv,
+                   "field,side,method,cones,threads,runs,seconds,fastest,slowest,processor_seconds,"
                    "ns_per_texel,"
                    "peak_bytes,memory_factor,mean_kept,wider,cpu,system,compiler,commit,version\n");
     hc_cli_say(cli, "\n%-10s %5s %-18s %-5s %7s %4s %10s %9s %6s %7s %8s\n", "field", "side",
                "method", "cones", "threads", "runs", "seconds", "ns/texel", "memory", "kept",
                "wider");
-    return bench->failed ? hc_cli_fail_memory(cli) : HC_CLI_DONE;
+    return bench->failed || bench->csv.failed ? hc_cli_fail_memory(cli) : HC_CLI_DONE;
 }
 
 /* ---- rows ---- */
@@ -228,5 +229,5 @@ void hc_cli_bench_figures(hc_cli_bench *bench)
 void hc_cli_bench_end(hc_cli_bench *bench)
 {
     free(bench->rows);
-    free(bench->csv);
+    free(bench->csv.text);
 }

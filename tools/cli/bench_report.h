@@ -8,14 +8,22 @@
 #include "bench/bake_bench.h"
 #include "bench/machine.h"
 
+/* Lines of CSV so far. Zero: none. Free `text`. */
+typedef struct hc_cli_csv {
+    char  *text;
+    size_t size;
+    bool   failed; /* memory ran out: lines are missing */
+} hc_cli_csv;
+
+void hc_cli_csv_add(hc_cli_csv *csv, const char *line);
+
 typedef struct hc_cli_bench {
     hc_cli          *cli;
     hc_bench_machine machine;
     hc_bench_row    *rows; /* their field names are those of the command line */
     int              count, capacity;
     cJSON           *list; /* member "rows" of cli->json                      */
-    char            *csv;  /* text so far                                     */
-    size_t           csv_size;
+    hc_cli_csv       csv;
     bool             failed; /* memory ran out: rows are missing              */
 } hc_cli_bench;
 

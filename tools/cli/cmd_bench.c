@@ -157,7 +157,7 @@ int hc_cli_run_bench(hc_cli *cli)
     code = code == HC_CLI_DONE ? measure(cli, &lists, &bench) : code;
     if (code == HC_CLI_DONE) {
         hc_cli_bench_figures(&bench);
-        code = hc_cli_write_reports(cli, bench.csv);
+        code = hc_cli_write_reports(cli, bench.csv.text);
     }
     hc_cli_bench_end(&bench);
     return code;

@@ -20,8 +20,7 @@ typedef struct report {
     hc_bench_trace_row *rows; /* one scene and size after another */
     int                 count, capacity;
     cJSON              *list;
-    char               *csv;
-    size_t              csv_size;
+    hc_cli_csv          csv;
     bool                failed;
 } report;
 
@@ -31,19 +30,6 @@ typedef struct inputs {
     hc_bench_ground grounds[HC_CLI_LIST_MAX];
     hc_field        tiles[HC_CLI_LIST_MAX];
 } inputs;
-
-static void add_csv(report *r, const char *line)
-{
-    const size_t length = strlen(line);
-    char        *grown  = realloc(r->csv, r->csv_size + length + 1);
-    if (grown == NULL) {
-        r->failed = true;
-        return;
-    }
-    memcpy(grown + r->csv_size, line, length + 1);
-    r->csv = grown;
-    r->csv_size += length;
-}
 
 static void add_json(report *r, const hc_bench_trace_row *row)
 {
@@ -85,7 +71,7 @@ static void row_done(void *user, const hc_bench_trace_row *row)
                    row->field, row->side, row->rays, row->caster, row->mode, row->threads,
                    row->count, row->runs, row->seconds, row->rays_per_second, row->hits,
                    row->build_seconds, row->bytes);
-    add_csv(r, line);
+    hc_cli_csv_add(&r->csv, line);
     hc_cli_say(r->cli, "%-10s %5d %-7s %-16s %-8s %7d %10.2f %6.3f %10.1f %8.1f\n", row->field,
                row->side, row->rays, row->caster, row->mode, row->threads,
                1e-6 * row->rays_per_second, row->hits, 1e9 * row->build_seconds / samples,
@@ -214,7 +200,7 @@ static int measure(hc_cli *cli, const inputs *in, report *r)
                                               .row_done     = row_done,
                                               .user         = r };
     const hc_result              result   = hc_bench_trace(&options, &cli->log);
-    if (result == HC_OK && r->failed) {
+    if (result == HC_OK && (r->failed || r->csv.failed)) {
         return hc_cli_fail_memory(cli);
     }
     return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
@@ -226,8 +212,9 @@ static void begin(report *r)
     hc_cli_text(r->cli, "bench", "trace");
     hc_cli_show_machine(r->cli, &r->machine);
     r->list = cJSON_AddArrayToObject(r->cli->json, "rows");
-    add_csv(r, "field,side,rays,caster,mode,threads,count,runs,seconds,rays_per_second,hits,"
-               "build_seconds,bytes\n");
+    hc_cli_csv_add(&r->csv,
+                   "field,side,rays,caster,mode,threads,count,runs,seconds,rays_per_second,hits,"
+                   "build_seconds,bytes\n");
     hc_cli_say(r->cli, "\n%-10s %5s %-7s %-16s %-8s %7s %10s %6s %10s %8s\n", "field", "side",
                "rays", "caster", "mode", "threads", "Mrays/s", "hits", "build ns", "bytes");
 }
@@ -243,12 +230,12 @@ int hc_cli_run_bench_trace(hc_cli *cli)
     }
     if (code == HC_CLI_DONE) {
         add_figures(&r);
-        code = hc_cli_write_reports(cli, r.csv);
+        code = hc_cli_write_reports(cli, r.csv.text);
     }
     for (int i = 0; i < HC_CLI_LIST_MAX; i++) {
         hc_free_field(&in.tiles[i]);
     }
     free(r.rows);
-    free(r.csv);
+    free(r.csv.text);
     return code;
 }
