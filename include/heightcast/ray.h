@@ -97,6 +97,14 @@ typedef struct hc_reference_options {
 HC_API double hc_reference_trace(hc_hit *hit, const hc_field *field,
                                  const hc_reference_options *options, const hc_ray *ray);
 
+/* The same for `count` rays, on `threads` threads (0: one per core): the same for every number of
+ * them.
+ * hits, exact  [out] of every ray, hits and returned values; either may be NULL
+ * HC_OK or HC_ERROR_CANCELLED. */
+HC_API hc_result hc_reference_batch(hc_hit *hits, double *exact, const hc_field *field,
+                                    const hc_reference_options *options, const hc_ray *rays,
+                                    size_t count, int threads, hc_progress progress, hc_log *log);
+
 #ifdef __cplusplus
 }
 #endif

@@ -305,6 +305,17 @@ static void thin_spikes_are_lost_by_steps_and_by_nothing_else(void **state)
     assert_true(hits_of_spike(&field, &linear, RAYS) < truth);
 }
 
+static void fan_of_rays(hc_ray *rays, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const float angle = 10.0F * (float)i / (float)count;
+        rays[i]           = (hc_ray){ { 0.5F, 0.5F, 0.3F },
+                                      0.0F,
+                                      { 1.0F - angle, angle - 3.0F, 9.0F - angle },
+                                      INFINITY };
+    }
+}
+
 static void batches_are_the_same_for_all_threads(void **state)
 {
     (void)state;
@@ -314,13 +325,7 @@ static void batches_are_the_same_for_all_threads(void **state)
     static uint8_t any[RAYS];
     const hc_field field  = field_of(funnel);
     hc_tracer     *tracer = make(&field, &(hc_trace_options){ .method = HC_TRACE_MAXMIP });
-    for (int i = 0; i < RAYS; i++) {
-        const float angle = (float)i * 0.001F;
-        rays[i]           = (hc_ray){ { 0.5F, 0.5F, 0.3F },
-                                      0.0F,
-                                      { 1.0F - angle, angle - 3.0F, 0.9F - angle * 0.1F },
-                                      INFINITY };
-    }
+    fan_of_rays(rays, RAYS);
     assert_int_equal(hc_trace_batch(tracer, one, rays, RAYS, 1, (hc_progress){ NULL, NULL }, NULL),
                      HC_OK);
     assert_int_equal(
@@ -332,6 +337,42 @@ static void batches_are_the_same_for_all_threads(void **state)
         assert_int_equal(any[i], one[i].t < INFINITY);
     }
     hc_tracer_destroy(tracer);
+}
+
+static bool refuse_to_go_on(void *user, double fraction)
+{
+    (void)user;
+    (void)fraction;
+    return false;
+}
+
+static void reference_batches_are_the_reference(void **state)
+{
+    (void)state;
+    enum { RAYS = 1000 };
+    static hc_ray              rays[RAYS];
+    static hc_hit              hits[RAYS];
+    static double              exact[RAYS];
+    const hc_progress          none   = { NULL, NULL };
+    const hc_field             field  = field_of(funnel);
+    int                        found  = 0;
+    hc_log                     log    = { .text = "" };
+    const hc_reference_options raised = { .rise = 0.01 };
+    fan_of_rays(rays, RAYS);
+    assert_int_equal(hc_reference_batch(hits, NULL, &field, &raised, rays, RAYS, 3, none, &log),
+                     HC_OK);
+    assert_int_equal(hc_reference_batch(NULL, exact, &field, &raised, rays, RAYS, 1, none, &log),
+                     HC_OK);
+    for (int i = 0; i < RAYS; i++) {
+        hc_hit hit;
+        assert_true(hc_reference_trace(&hit, &field, &raised, &rays[i]) == exact[i]);
+        assert_memory_equal(&hit, &hits[i], sizeof hit);
+        found += exact[i] < INFINITY ? 1 : 0;
+    }
+    assert_true(found > RAYS / 10 && found < RAYS);
+    const hc_progress refuse = { refuse_to_go_on, NULL };
+    assert_int_equal(hc_reference_batch(hits, NULL, &field, NULL, rays, RAYS, 1, refuse, &log),
+                     HC_ERROR_CANCELLED);
 }
 
 int main(void)
@@ -350,6 +391,7 @@ int main(void)
         cmocka_unit_test(a_cone_is_crossed_in_one_step),
         cmocka_unit_test(thin_spikes_are_lost_by_steps_and_by_nothing_else),
         cmocka_unit_test(batches_are_the_same_for_all_threads),
+        cmocka_unit_test(reference_batches_are_the_reference),
     };
     fill_fields();
     return cmocka_run_group_tests(tests, NULL, NULL);

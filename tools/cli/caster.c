@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Rays at a time: buffers of some 25 MB, and threads that are kept busy. */
-enum { PIECE = 1 << 18, REPORT_EVERY = 256 };
+enum { PIECE = 1 << 18 };
 
 static bool by_reference(const hc_cli_caster *c)
 {
@@ -90,27 +90,6 @@ int hc_cli_caster_open(hc_cli_caster *caster, hc_cli *cli, hc_cli_scene *scene)
 
 /* ---- casting --------------------------------------------------------------------------------- */
 
-bool hc_cli_reference_batch(hc_hit *hits, double *exact, const hc_field *field,
-                            const hc_reference_options *options, const hc_ray *rays, size_t count,
-                            hc_progress progress)
-{
-    for (size_t i = 0; i < count; i++) {
-        hc_hit       hit;
-        const double t = hc_reference_trace(&hit, field, options, &rays[i]);
-        if (hits != NULL) {
-            hits[i] = hit;
-        }
-        if (exact != NULL) {
-            exact[i] = t;
-        }
-        if (i % REPORT_EVERY == 0 && progress.report != NULL
-            && !progress.report(progress.user, (double)i / (double)count)) {
-            return false;
-        }
-    }
-    return true;
-}
-
 /* Progress of a piece, as that of the whole. */
 static bool report_part(void *user, double fraction)
 {
@@ -126,12 +105,13 @@ static hc_result trace_reference(hc_cli_caster *c, hc_progress progress)
     const hc_reference_options options = { .surface    = rays->surface,
                                            .open_sides = rays->open_sides,
                                            .placement  = c->scene->placement };
-    const bool finished = hc_cli_reference_batch(c->hits, NULL, &c->scene->field, &options, c->rays,
-                                                 c->part, progress);
-    for (size_t i = 0; finished && i < c->part; i++) {
+    const hc_result            result =
+        hc_reference_batch(c->hits, NULL, &c->scene->field, &options, c->rays, c->part,
+                           c->cli->settings.threads, progress, &c->cli->log);
+    for (size_t i = 0; result == HC_OK && i < c->part; i++) {
         c->any[i] = isfinite(c->hits[i].t) ? 1 : 0;
     }
-    return finished ? HC_OK : HC_ERROR_CANCELLED;
+    return result;
 }
 
 static hc_result trace_part(hc_cli_caster *c)

@@ -37,10 +37,4 @@ int hc_cli_caster_run(hc_cli_caster *caster);
 /* Put the outputs into place if `code` is HC_CLI_DONE, else leave none. Returns the exit code. */
 int hc_cli_caster_close(hc_cli_caster *caster, int code);
 
-/* The reference over many rays, on the calling thread: hits, and t in double precision; either may
- * be NULL. False if `progress` asked to stop. */
-bool hc_cli_reference_batch(hc_hit *hits, double *exact, const hc_field *field,
-                            const hc_reference_options *options, const hc_ray *rays, size_t count,
-                            hc_progress progress);
-
 #endif

@@ -1,6 +1,5 @@
 #include "verify_rays.h"
 
-#include "caster.h"
 #include "options.h"
 #include "ray_sets.h"
 
@@ -60,11 +59,11 @@ static bool report_half(void *user, double fraction)
     return whole.report(whole.user, half->start + 0.5 * fraction);
 }
 
-static bool find_bounds(judge *j, double rise, double reach)
+static hc_result find_bounds(judge *j, double rise, double reach)
 {
     bounds *b = &j->bounds;
     if (b->known && b->rise == rise && b->reach == reach) {
-        return true;
+        return HC_OK;
     }
     *b =
         (bounds){ .known = true, .rise = rise, .reach = reach, .first = b->first, .last = b->last };
@@ -76,14 +75,15 @@ static bool find_bounds(judge *j, double rise, double reach)
                                                .open_sides = j->cli->settings.rays.open_sides,
                                                .rise       = sign * rise,
                                                .reach      = sign * reach };
-        if (!hc_cli_reference_batch(NULL, pass == 0 ? b->first : b->last, &j->scene->field,
-                                    &options, j->rays, j->count,
-                                    (hc_progress){ report_half, &half })) {
-            return false;
+        const hc_result            result  = hc_reference_batch(
+                        NULL, pass == 0 ? b->first : b->last, &j->scene->field, &options, j->rays, j->count,
+                        j->cli->settings.threads, (hc_progress){ report_half, &half }, &j->cli->log);
+        if (result != HC_OK) {
+            return result;
         }
     }
     hc_cli_phase(j->cli, NULL);
-    return true;
+    return HC_OK;
 }
 
 /* ---- the verdict ----------------------------------------------------------------------------- */
@@ -233,8 +233,9 @@ static int try_method(judge *j, cJSON *list, hc_trace_method method)
         rise  = published_rise;
         reach = published_reach;
     }
-    if (!find_bounds(j, rise, reach)) {
-        return hc_cli_fail_result(j->cli, HC_ERROR_CANCELLED);
+    const hc_result known = find_bounds(j, rise, reach);
+    if (known != HC_OK) {
+        return hc_cli_fail_result(j->cli, known);
     }
     const losses l = judge_method(j);
     show_method(j, list, method, &l);
