@@ -85,7 +85,8 @@ typedef struct hc_trace_options {
                                    [1 .. 65536]  0: 10 (cone-fixed), 32 (linear, relief,
                                    occlusion), 256 (cone-loop, cone-exact, robust, quick, relaxed)*/
     int             refinements; /* bisections of relief, relaxed, robust and quick  [1 .. 64]
-                                   -1: one secant instead; 0: 6                                   */
+                                   -1: one secant instead; -2: none, the hit is where the method
+                                   first looked below the surface; 0: 6                           */
     hc_isa          isa;         /* kernels of fast                                               */
     int             threads;     /* for building  [0 .. 1024]  0: one per core                    */
 } hc_trace_options;

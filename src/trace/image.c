@@ -76,6 +76,9 @@ double hc_image_refine(const hc_tracer *tracer, const hc_path *path, hc_found *f
                        double below)
 {
     const int times = tracer->options.refinements;
+    if (times < -1) {
+        return below;
+    }
     found->steps += (uint32_t)(times < 0 ? 1 : times);
     return times < 0 ? hc_image_secant(tracer, path, above, below)
                      : bisect(tracer, path, above, below);

@@ -27,7 +27,8 @@ void hc_image_stop(const hc_tracer *tracer, const hc_path *path, hc_found *found
 
 /* A bracket: above the surface at `above`, at or under it at `below`. Both return a place in it:
  * where the line between the ends comes down; and that, or what options.refinements bisections
- * found last at or under the surface, with the steps that it took. */
+ * found last at or under the surface, with the steps that it took; or `below` where there are to be
+ * none. */
 double hc_image_secant(const hc_tracer *tracer, const hc_path *path, double above, double below);
 double hc_image_refine(const hc_tracer *tracer, const hc_path *path, hc_found *found, double above,
                        double below);

@@ -83,7 +83,7 @@ static hc_result check_options(const hc_trace_options *options, hc_log *log)
     result = result != HC_OK ? result : check_range("steps", options->steps, 0, STEPS_MAX, log);
     result = result != HC_OK
                  ? result
-                 : check_range("refinements", options->refinements, -1, REFINEMENTS_MAX, log);
+                 : check_range("refinements", options->refinements, -2, REFINEMENTS_MAX, log);
     result =
         result != HC_OK ? result : check_range("isa", (int)options->isa, 0, HC_ISA_AVX512, log);
     return result != HC_OK ? result : check_range("threads", options->threads, 0, THREADS_MAX, log);

@@ -80,7 +80,7 @@ static void refusals_name_the_culprit(void **state)
         { { .placement = { 1.0, 1.0, -1.0, { 0.0, 0.0, 0.0 } } }, "scale_z -1" },
         { { .placement = { 1.0, (double)NAN, 1.0, { 0.0, 0.0, 0.0 } } }, "nan" },
         { { .method = HC_TRACE_LINEAR, .steps = 65537 }, "steps is 65537" },
-        { { .method = HC_TRACE_RELIEF, .refinements = -2 }, "refinements is -2" },
+        { { .method = HC_TRACE_RELIEF, .refinements = -3 }, "refinements is -3" },
         { { .threads = -1 }, "threads is -1" },
     };
     const hc_field field = field_of(plane);

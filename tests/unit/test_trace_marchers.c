@@ -101,6 +101,10 @@ static void quick_refines_a_bracket(void **state)
     assert_true(fire(steep, &options, ray, &hit));
     assert_true(hit.t == 0.375F);
     assert_int_equal(hit.steps, 4);
+    options.refinements = -2;
+    assert_true(fire(steep, &options, ray, &hit));
+    assert_true(hit.t == 0.5F);
+    assert_int_equal(hit.steps, 1);
 }
 
 /* ---- relaxed -------------------------------------------------------------------------------- */
