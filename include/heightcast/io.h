@@ -83,6 +83,11 @@ HC_API void      hc_free_map(hc_map *map);
 HC_API hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char *path,
                                  const hc_save_options *options, hc_log *log);
 
+/* Write floats as they are, channels interleaved (1: Y; 3: R, G, B), as EXR or, one channel, PFM or
+ * NPY: pictures in linear light, depths with their infinities. Same rules as hc_save_field. */
+HC_API hc_result hc_save_floats(const float *values, int width, int height, int channels,
+                                const char *path, const hc_save_options *options, hc_log *log);
+
 /* ---- rays and hits --------------------------------------------------------------------------- */
 
 /* Rows of numbers in and out, piece by piece, so that any number of them passes in little memory:

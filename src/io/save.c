@@ -172,13 +172,23 @@ hc_result hc_save_map(const hc_map *map, const char *path, const hc_save_options
 
 /* ---- pictures -------------------------------------------------------------------------------- */
 
+static hc_result check_picture(const void *pixels, int width, int height, const char *path,
+                               hc_log *log)
+{
+    if (pixels == NULL || width < 1 || height < 1 || width > HC_SIDE_MAX || height > HC_SIDE_MAX) {
+        return hc_fail(log, HC_ERROR_ARGUMENT, "%s: picture of %d x %d pixels%s; sides are 1 to %d",
+                       path, width, height, pixels == NULL ? " at NULL" : "", HC_SIDE_MAX);
+    }
+    return HC_OK;
+}
+
 hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char *path,
                           const hc_save_options *options, hc_log *log)
 {
-    const hc_format *format = hc_format_by_ending(path);
-    if (rgb == NULL || width < 1 || height < 1 || width > HC_SIDE_MAX || height > HC_SIDE_MAX) {
-        return hc_fail(log, HC_ERROR_ARGUMENT, "%s: picture of %d x %d pixels%s; sides are 1 to %d",
-                       path, width, height, rgb == NULL ? " at NULL" : "", HC_SIDE_MAX);
+    const hc_format *format  = hc_format_by_ending(path);
+    const hc_result  checked = check_picture(rgb, width, height, path, log);
+    if (checked != HC_OK) {
+        return checked;
     }
     if (format == NULL || format->write != hc_write_png) {
         return hc_fail(log, HC_ERROR_UNSUPPORTED, "%s: pictures are written as PNG; end it in .png",
@@ -191,5 +201,33 @@ hc_result hc_save_picture(const uint8_t *rgb, int width, int height, const char 
                              .channels = 3,
                              .levels   = 1,
                              .bits     = 8 };
+    return write_file(format, &image, path, resolve(options).overwrite, log);
+}
+
+hc_result hc_save_floats(const float *values, int width, int height, int channels, const char *path,
+                         const hc_save_options *options, hc_log *log)
+{
+    const hc_format *format  = hc_format_by_ending(path);
+    const hc_result  checked = check_picture(values, width, height, path, log);
+    if (checked != HC_OK) {
+        return checked;
+    }
+    if (channels != 1 && channels != 3) {
+        return hc_fail(log, HC_ERROR_ARGUMENT, "%s: picture of %d channels; 1 or 3 are written",
+                       path, channels);
+    }
+    const bool one = format != NULL && channels == 1
+                     && (format->write == hc_write_pfm || format->write == hc_write_npy);
+    if (!one && (format == NULL || format->write != hc_write_exr)) {
+        return hc_fail(log, HC_ERROR_UNSUPPORTED, "%s: floats are written as EXR%s; end it in .exr",
+                       path, channels == 1 ? ", PFM or NPY" : "");
+    }
+    const hc_image image = { .data     = (void *)(uintptr_t)values, /* writers only read */
+                             .type     = HC_F32,
+                             .width    = width,
+                             .height   = height,
+                             .channels = channels,
+                             .levels   = 1,
+                             .bits     = 32 };
     return write_file(format, &image, path, resolve(options).overwrite, log);
 }

@@ -97,6 +97,36 @@ static void test_picture(void **state)
                    "NULL");
 }
 
+/* Floats come back bit for bit, infinities too. */
+static void test_floats(void **state)
+{
+    (void)state;
+    empty_folder();
+    static const float values[6] = { -1.5F, INFINITY, 0.0F, 1e-30F, 3.0F, 7.25F };
+    const char *const  names[]   = { "one.exr", "one.pfm", "one.npy", "three.exr" };
+    hc_log             log       = { .text = "" };
+    for (int i = 0; i < 4; i++) {
+        const int   channels = i == 3 ? 3 : 1;
+        const char *path     = in_folder(names[i]);
+        hc_source   source;
+        hc_image    image;
+        assert_ok(hc_save_floats(values, 6 / channels / 2, 2, channels, path, NULL, &log), &log);
+        assert_ok(hc_source_open(&source, path, NULL, &log), &log);
+        assert_ok(hc_read_image(&image, NULL, &source, false, &log), &log);
+        assert_int_equal(image.channels, channels);
+        assert_memory_equal(image.data, values, sizeof values);
+        hc_image_free(&image);
+        hc_source_close(&source);
+    }
+    const char *pfm = in_folder("three.pfm");
+    assert_refused(hc_save_floats(values, 1, 2, 3, pfm, NULL, &log), HC_ERROR_UNSUPPORTED, &log,
+                   pfm, ".exr");
+    assert_refused(hc_save_floats(values, 1, 3, 2, pfm, NULL, &log), HC_ERROR_ARGUMENT, &log, pfm,
+                   "2 channels");
+    assert_refused(hc_save_floats(NULL, 1, 3, 1, pfm, NULL, &log), HC_ERROR_ARGUMENT, &log, pfm,
+                   "NULL");
+}
+
 static void test_bad_places(void **state)
 {
     (void)state;
@@ -254,15 +284,11 @@ static void test_log_is_optional(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_existing),
-        cmocka_unit_test(test_map_and_picture_rules),
-        cmocka_unit_test(test_picture),
-        cmocka_unit_test(test_bad_places),
-        cmocka_unit_test(test_read_only_folder),
-        cmocka_unit_test(test_full_disk),
-        cmocka_unit_test(test_race),
-        cmocka_unit_test(test_given_up),
-        cmocka_unit_test(test_long_and_bare_names),
+        cmocka_unit_test(test_existing),        cmocka_unit_test(test_map_and_picture_rules),
+        cmocka_unit_test(test_picture),         cmocka_unit_test(test_floats),
+        cmocka_unit_test(test_bad_places),      cmocka_unit_test(test_read_only_folder),
+        cmocka_unit_test(test_full_disk),       cmocka_unit_test(test_race),
+        cmocka_unit_test(test_given_up),        cmocka_unit_test(test_long_and_bare_names),
         cmocka_unit_test(test_log_is_optional),
     };
     return cmocka_run_group_tests(tests, fixture_begin, fixture_end);
