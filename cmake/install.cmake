@@ -1,8 +1,8 @@
-# make install: libraries, headers, CMake package (components core and io), pkg-config files,
+# make install: libraries, headers, CMake package (components core, io and render), pkg-config files,
 # program and man page.
 include(CMakePackageConfigHelpers)
 
-foreach(component core io)
+foreach(component core io render)
   set_target_properties(heightcast-${component} PROPERTIES
     EXPORT_NAME ${component}
     VERSION ${PROJECT_VERSION}
@@ -28,12 +28,13 @@ if(BUILD_SHARED_LIBS)
   set(needs PRIVATE)
 endif()
 set(HC_CORE_LIBS_${needs} "-lm -pthread")
+set(HC_RENDER_LIBS_${needs} "-lm -pthread")
 set(HC_IO_LIBS_${needs} "-lOpenEXRCore -lm")
 set(HC_IO_REQUIRES_${needs} "spng, libtiff-4 >= 4.5")
 if(HEIGHTCAST_GDAL_FOUND)
   string(APPEND HC_IO_REQUIRES_${needs} ", gdal")
 endif()
-foreach(name heightcast heightcast-io)
+foreach(name heightcast heightcast-io heightcast-render)
   configure_file(cmake/${name}.pc.in ${name}.pc @ONLY)
   install(FILES ${PROJECT_BINARY_DIR}/${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endforeach()

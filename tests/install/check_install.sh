@@ -25,7 +25,7 @@ cd "$folder"
 # by CMake
 cmake -S "$root/tests/install" -B consumer -G Ninja -DCMAKE_PREFIX_PATH="$prefix" >/dev/null
 cmake --build consumer -- --quiet
-(cd consumer && ./consumer && ./core_only)
+(cd consumer && ./consumer && ./core_only && ./picture)
 
 # by pkg-config
 source=$root/tests/install
@@ -33,9 +33,12 @@ source=$root/tests/install
 cc -std=c17 "$source/consumer.c" -o consumer/by_pkg_config \
     $(pkg-config --cflags --libs heightcast-io)
 # shellcheck disable=SC2046
+cc -std=c17 "$source/picture.c" -o consumer/picture_by_pkg_config \
+    $(pkg-config --cflags --libs heightcast-render)
+# shellcheck disable=SC2046
 c++ -std=c++17 "$source/core_only.cpp" -o consumer/core_by_pkg_config \
     $(pkg-config --cflags --libs heightcast)
-(cd consumer && ./by_pkg_config && ./core_by_pkg_config)
+(cd consumer && ./by_pkg_config && ./picture_by_pkg_config && ./core_by_pkg_config)
 
 # what a person gets
 "$prefix/bin/heightcast" --version
@@ -44,5 +47,5 @@ test -s "$prefix/share/man/man1/heightcast.1"
 if [ "$kind" = shared ]; then
     readelf -d "$library/libheightcast.so" | grep -q 'SONAME.*\[libheightcast\.so\.[0-9]*\]'
     python3 "$root/scripts/check_api_use.py" --exports "$library/libheightcast.so" \
-        "$library/libheightcast-io.so"
+        "$library/libheightcast-io.so" "$library/libheightcast-render.so"
 fi

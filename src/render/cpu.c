@@ -1,0 +1,44 @@
+#include "cpu.h"
+
+#include "base/parallel.h"
+
+typedef struct job {
+    hc_pixel       *pixels;
+    const hc_stage *stage;
+} job;
+
+static void draw_sample(hc_pixel *pixel, const hc_stage *stage, double x, double y, int row)
+{
+    const hc_edge edge = stage->scene.relief.edge;
+    double        origin[3], direction[3];
+    hc_sample     sample;
+    hc_stage_ray(stage, origin, direction, x, y);
+    const hc_sight sight = hc_sight_along(&stage->shape, edge, stage->tracer, origin, direction);
+    hc_shade(&sample, stage, &sight, origin, direction);
+    if (stage->exact != NULL) {
+        sample.exact =
+            (float)hc_sight_along(&stage->shape, edge, stage->exact, origin, direction).distance;
+    }
+    hc_pixel_add(pixel, stage, &sample, direction, row);
+}
+
+static void draw_row(void *context, int row, int worker)
+{
+    const job *j = context;
+    (void)worker;
+    for (int x = 0; x < j->stage->width; x++) {
+        hc_pixel *pixel = &j->pixels[(size_t)row * (size_t)j->stage->width + (size_t)x];
+        for (int i = 0; i < j->stage->scene.camera.samples; i++) {
+            double place[2];
+            hc_stage_sample_place(j->stage, place, i);
+            draw_sample(pixel, j->stage, x + place[0], row + place[1], row);
+        }
+    }
+}
+
+hc_result hc_cpu_draw(hc_pixel *pixels, const hc_stage *stage, hc_log *log)
+{
+    job j = { pixels, stage };
+    return hc_parallel_for(stage->height, hc_threads_resolve(stage->options.threads), draw_row, &j,
+                           stage->options.progress, log);
+}

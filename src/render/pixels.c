@@ -1,0 +1,249 @@
+/* Pixels from what their rays saw: sums, views, figures. */
+#include "shade.h"
+
+#include "vec.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- sums ---------------------------------------------------------------------------------- */
+
+static void background(float rgb[3], const hc_stage *stage, int row)
+{
+    static const float top[3]    = { 0.020F, 0.026F, 0.036F };
+    static const float bottom[3] = { 0.110F, 0.112F, 0.115F };
+    const float        share     = ((float)row + 0.5F) / (float)stage->height;
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = top[i] + share * (bottom[i] - top[i]);
+    }
+}
+
+/* Hits behind or before the exact ones by more than this count as lost or made up. */
+static float slack_of(const hc_stage *stage)
+{
+    return (float)(stage->shape.depth / 64.0);
+}
+
+static void compare(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sample)
+{
+    const float slack = slack_of(stage);
+    pixel->lost += sample->exact + slack < sample->distance ? 1 : 0;
+    pixel->made_up += sample->distance + slack < sample->exact ? 1 : 0;
+    if (sample->distance < INFINITY && sample->exact < INFINITY) {
+        pixel->both++;
+        pixel->error += fabsf(sample->distance - sample->exact);
+    }
+}
+
+void hc_pixel_add(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sample,
+                  const double direction[3], int row)
+{
+    const bool hit = sample->distance < INFINITY;
+    float      empty[3];
+    background(empty, stage, row);
+    for (int i = 0; i < 3; i++) {
+        pixel->rgb[i] += hit ? sample->rgb[i] : empty[i];
+        pixel->normal[i] += hit ? sample->normal[i] : 0.0F;
+    }
+    if (hit) {
+        const double along = (double)sample->distance * hc_dot(direction, stage->forward);
+        pixel->depth       = pixel->hits > 0 ? fminf(pixel->depth, (float)along) : (float)along;
+        pixel->height += sample->height;
+        pixel->hits++;
+    }
+    pixel->steps += sample->steps;
+    pixel->entered += sample->entered ? 1 : 0;
+    pixel->unconverged += sample->unconverged ? 1 : 0;
+    if (hc_view_compares(stage->options.view)) {
+        compare(pixel, stage, sample);
+    }
+}
+
+/* ---- codes --------------------------------------------------------------------------------- */
+
+/* x^2.4 by Newton's method for the fifth root, since pow differs between machines. */
+static double linear_of(double code)
+{
+    if (code <= 0.04045) {
+        return code / 12.92;
+    }
+    const double x    = (code + 0.055) / 1.055;
+    double       root = 1.0; /* of x^2 */
+    for (int i = 0; i < 32; i++) {
+        const double fourth = root * root * root * root;
+        root -= (root * fourth - x * x) / (5.0 * fourth);
+    }
+    return x * x * root;
+}
+
+static void set_code(float rgb[3], double r, double g, double b)
+{
+    rgb[0] = (float)linear_of(r);
+    rgb[1] = (float)linear_of(g);
+    rgb[2] = (float)linear_of(b);
+}
+
+void hc_picture_bytes(uint8_t *rgb8, const hc_picture *picture)
+{
+    const size_t count = (size_t)picture->width * (size_t)picture->height * 3;
+    float        from[256]; /* least value of each code */
+    for (int code = 0; code < 256; code++) {
+        from[code] = code == 0 ? -INFINITY : (float)linear_of((code - 0.5) / 255.0);
+    }
+    for (size_t i = 0; i < count; i++) {
+        int code = 0;
+        for (int bit = 128; bit > 0; bit /= 2) {
+            code += picture->rgb[i] >= from[code + bit] ? bit : 0;
+        }
+        rgb8[i] = (uint8_t)code;
+    }
+}
+
+/* ---- colours ------------------------------------------------------------------------------- */
+
+/* Dark to bright, so that the order of values survives a print in grey. */
+void hc_heat_colour(float rgb[3], double value)
+{
+    static const double stops[6][3] = { { 0.06, 0.05, 0.20 }, { 0.16, 0.22, 0.62 },
+                                        { 0.10, 0.55, 0.62 }, { 0.45, 0.75, 0.30 },
+                                        { 0.96, 0.78, 0.18 }, { 1.00, 0.97, 0.85 } };
+    const double        at          = fmin(fmax(value, 0.0), 1.0) * 5.0;
+    const int           stop        = at < 5.0 ? (int)at : 4;
+    double              c[3];
+    for (int i = 0; i < 3; i++) {
+        c[i] = stops[stop][i] + (at - stop) * (stops[stop + 1][i] - stops[stop][i]);
+    }
+    set_code(rgb, c[0], c[1], c[2]);
+}
+
+static void mix(float rgb[3], float share, float r, float g, float b)
+{
+    const float other[3] = { r, g, b };
+    for (int i = 0; i < 3; i++) {
+        rgb[i] += share * (other[i] - rgb[i]);
+    }
+}
+
+static void grey_down(float rgb[3])
+{
+    const float grey = 0.3F * rgb[0] + 0.6F * rgb[1] + 0.1F * rgb[2];
+    rgb[0] = rgb[1] = rgb[2] = grey;
+}
+
+/* Sums of the shaded colour, in grey, with lost and made up hits on it. */
+static void mark_wrong(float rgb[3], const hc_pixel *p, float samples)
+{
+    mix(rgb, (float)p->made_up / samples, 0.9F, 0.75F, 0.0F);
+    mix(rgb, (float)p->lost / samples, 0.9F, 0.0F, 0.0F);
+}
+
+static void view_numbers(float rgb[3], const hc_stage *stage, const hc_pixel *p, double top)
+{
+    const double hits = fmax(p->hits, 1);
+    const double far  = ((double)p->depth - stage->near) / (stage->far - stage->near);
+    const double high = (double)p->height / hits;
+    switch (stage->options.view) {
+    case HC_VIEW_HEIGHT: set_code(rgb, high, high, high); break;
+    case HC_VIEW_DEPTH: set_code(rgb, 1.0 - 0.9 * far, 1.0 - 0.9 * far, 1.0 - 0.9 * far); break;
+    case HC_VIEW_NORMAL:
+        set_code(rgb, 0.5 + 0.5 * (double)p->normal[0] / hits,
+                 0.5 + 0.5 * (double)p->normal[1] / hits, 0.5 + 0.5 * (double)p->normal[2] / hits);
+        break;
+    case HC_VIEW_STEPS: hc_heat_colour(rgb, (double)p->steps / p->entered / top); break;
+    default: hc_heat_colour(rgb, (double)p->error / fmax(p->both, 1) / top); break;
+    }
+}
+
+static void colour(float rgb[3], const hc_stage *stage, const hc_pixel *p, double top)
+{
+    const hc_view view    = stage->options.view;
+    const float   samples = (float)stage->scene.camera.samples;
+    const bool    seen    = view == HC_VIEW_STEPS ? p->entered > 0 : p->hits > 0;
+    for (int i = 0; i < 3; i++) {
+        rgb[i] = p->rgb[i] / samples;
+    }
+    if (view == HC_VIEW_UNCONVERGED) {
+        mix(rgb, (float)p->unconverged / samples, 1.0F, 0.0F, 1.0F);
+    } else if (view == HC_VIEW_MISSED) {
+        grey_down(rgb);
+        mark_wrong(rgb, p, samples);
+    } else if (view != HC_VIEW_SHADED && seen) {
+        view_numbers(rgb, stage, p, top);
+    }
+    if (view == HC_VIEW_ERROR) {
+        mark_wrong(rgb, p, samples);
+    }
+}
+
+/* ---- figures ------------------------------------------------------------------------------- */
+
+static int by_value(const void *a, const void *b)
+{
+    const float x = *(const float *)a;
+    const float y = *(const float *)b;
+    return (x > y) - (x < y);
+}
+
+/* What a heat map shows of a pixel; negative: nothing. */
+static float heat_of(const hc_stage *stage, const hc_pixel *p)
+{
+    if (stage->options.view == HC_VIEW_STEPS) {
+        return p->entered > 0 ? p->steps / (float)p->entered : -1.0F;
+    }
+    return p->both > 0 ? p->error / (float)p->both : -1.0F;
+}
+
+static double top_of_most(const hc_stage *stage, const hc_pixel *pixels, size_t count,
+                          float *scratch)
+{
+    size_t shown = 0;
+    for (size_t i = 0; i < count; i++) {
+        const float heat = heat_of(stage, &pixels[i]);
+        if (heat >= 0.0F) {
+            scratch[shown++] = heat;
+        }
+    }
+    qsort(scratch, shown, sizeof *scratch, by_value);
+    const double top = shown > 0 ? (double)scratch[(shown - 1) * 99 / 100] : 0.0;
+    return stage->options.view == HC_VIEW_STEPS ? fmax(ceil(top), 1.0) : fmax(top, 1e-9);
+}
+
+static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pixel *pixels,
+                  size_t pixel_count)
+{
+    double   steps = 0.0, error = 0.0;
+    uint64_t entered = 0, both = 0;
+    *figures = (hc_render_figures){ .rays = pixel_count * (uint64_t)stage->scene.camera.samples };
+    for (size_t i = 0; i < pixel_count; i++) {
+        const hc_pixel *p = &pixels[i];
+        figures->hits += (uint64_t)p->hits;
+        figures->unconverged += (uint64_t)p->unconverged;
+        figures->lost += (uint64_t)p->lost;
+        figures->made_up += (uint64_t)p->made_up;
+        entered += (uint64_t)p->entered;
+        both += (uint64_t)p->both;
+        steps += (double)p->steps;
+        error += (double)p->error;
+    }
+    figures->mean_steps = entered > 0 ? steps / (double)entered : 0.0;
+    figures->mean_error = both > 0 ? error / (double)both : 0.0;
+}
+
+void hc_pixels_finish(hc_picture *picture, const hc_stage *stage, const hc_pixel *pixels,
+                      float *scratch)
+{
+    const size_t  pixel_count = (size_t)picture->width * (size_t)picture->height;
+    const hc_view view        = stage->options.view;
+    double        top         = (double)stage->options.top;
+    count(&picture->figures, stage, pixels, pixel_count);
+    if (top <= 0.0 && (view == HC_VIEW_STEPS || view == HC_VIEW_ERROR)) {
+        top = top_of_most(stage, pixels, pixel_count, scratch);
+    }
+    picture->figures.top = top;
+    for (size_t i = 0; i < pixel_count; i++) {
+        colour(picture->rgb + 3 * i, stage, &pixels[i], top);
+        if (picture->depth != NULL) {
+            picture->depth[i] = pixels[i].hits > 0 ? pixels[i].depth : INFINITY;
+        }
+    }
+}

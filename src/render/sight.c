@@ -1,0 +1,155 @@
+#include "sight.h"
+
+#include "vec.h"
+
+#include <math.h>
+#include <string.h>
+
+/* Pieces of a bent ray are nowhere farther than this from it, in depths of the relief. */
+static const double BEND = 1.0 / 512.0;
+
+/* Near the axis, where u turns ever faster, pieces do not get shorter than on this radius. */
+static const double RADIUS_LEAST = 0.004;
+
+enum { PIECES_MAX = 1024 }; /* far more than a ray needs; a bound for NaNs */
+
+typedef struct span {
+    double from, to;
+    int    through; /* axis of the side that the ray comes in through; -1: none */
+} span;
+
+static void clip(span *s, double place, double along, double half_low, double half_high, int axis)
+{
+    if (along == 0.0) {
+        s->to = place >= half_low && place <= half_high ? s->to : -INFINITY;
+        return;
+    }
+    const double enters = ((along > 0.0 ? half_low : half_high) - place) / along;
+    const double leaves = ((along > 0.0 ? half_high : half_low) - place) / along;
+    if (enters > s->from) {
+        s->from    = enters;
+        s->through = axis;
+    }
+    s->to = fmin(s->to, leaves);
+}
+
+/* The straight piece from a to b in texture space. */
+static bool march(hc_sight *sight, const hc_tracer *tracer, const double a[3], const double b[3])
+{
+    hc_ray ray = { .tmin = 0.0F, .tmax = 1.0F };
+    for (int i = 0; i < 3; i++) {
+        ray.origin[i]    = (float)a[i];
+        ray.direction[i] = (float)(b[i] - a[i]);
+    }
+    const bool found = hc_trace_nearest(tracer, &sight->hit, &ray);
+    sight->entered   = true;
+    sight->steps += sight->hit.steps;
+    sight->unconverged = found && (sight->hit.flags & HC_HIT_UNCONVERGED) != 0;
+    return found;
+}
+
+static void set_cut(hc_sight *sight, int axis, const double direction[3])
+{
+    sight->cut[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
+}
+
+static bool starts_in_solid(const hc_hit *hit)
+{
+    return hit->t < 1e-6F && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) != 0;
+}
+
+/* ---- the plane ------------------------------------------------------------------------------- */
+
+static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge,
+                         const hc_tracer *tracer, const double origin[3], const double direction[3])
+{
+    span   s = { 0.0, INFINITY, -1 };
+    double point[3], a[3], b[3];
+    clip(&s, origin[0], direction[0], -shape->half[0], shape->half[0], 0);
+    clip(&s, origin[1], direction[1], -shape->half[1], shape->half[1], 1);
+    clip(&s, origin[2], direction[2], -shape->depth, 0.0, 2);
+    const bool top = s.through == 2 && direction[2] < 0.0;
+    if (!(s.from <= s.to) || (edge == HC_EDGE_DISCARD && !top)) {
+        return;
+    }
+    hc_add_scaled(point, origin, s.from, direction);
+    hc_shape_place(shape, a, point);
+    hc_add_scaled(point, origin, s.to, direction);
+    hc_shape_place(shape, b, point);
+    if (!march(sight, tracer, a, b)) {
+        return;
+    }
+    sight->distance = s.from + (s.to - s.from) * (double)sight->hit.t;
+    if (!top && s.through >= 0 && starts_in_solid(&sight->hit)) {
+        set_cut(sight, s.through, direction);
+    }
+}
+
+/* ---- round bodies ---------------------------------------------------------------------------- */
+
+static span round_span(const hc_shape *shape, const double origin[3], const double direction[3])
+{
+    const double middle = -hc_dot(origin, direction);
+    const double square = middle * middle - hc_dot(origin, origin) + shape->bound * shape->bound;
+    span         s      = { 0.0, -INFINITY, -1 };
+    if (square >= 0.0) {
+        s.from = fmax(middle - sqrt(square), 0.0);
+        s.to   = middle + sqrt(square);
+        if (shape->body == HC_BODY_CYLINDER) {
+            clip(&s, origin[2], direction[2], -shape->half[1], shape->half[1], 2);
+        }
+    }
+    return s;
+}
+
+/* A piece of length l strays by at most l^2 / (8 r), r being the least radius of curvature on it:
+ * docs/algorithms.md, section 21. The piece itself may lead to a smaller one. */
+static double piece_length(const hc_shape *shape, const double point[3])
+{
+    const double stray  = 8.0 * BEND * shape->depth;
+    const double radius = hc_shape_curvature_radius(shape, point);
+    return sqrt(stray * fmax(radius - sqrt(stray * radius), RADIUS_LEAST));
+}
+
+static void through_shell(hc_sight *sight, const hc_shape *shape, const hc_tracer *tracer,
+                          const double origin[3], const double direction[3])
+{
+    const span s     = round_span(shape, origin, direction);
+    bool       first = s.through >= 0;
+    double     point[3], here[3], there[3];
+    hc_add_scaled(point, origin, s.from, direction);
+    hc_shape_place(shape, here, point);
+    double t = s.from;
+    for (int i = 0; i < PIECES_MAX && t < s.to; i++, first = false) {
+        const double away = (here[2] - 1.0) * shape->depth;
+        const double step = piece_length(shape, point);
+        const double next = fmin(t + fmax(step, away), s.to);
+        hc_add_scaled(point, origin, next, direction);
+        hc_shape_place(shape, there, point);
+        hc_shape_unwrap(shape, there, here);
+        if (here[2] < 0.0 && !first) {
+            return; /* into the core: the method has lost its hit */
+        }
+        if (away <= step && march(sight, tracer, here, there)) {
+            sight->distance = t + (next - t) * (double)sight->hit.t;
+            if (first && starts_in_solid(&sight->hit)) {
+                set_cut(sight, s.through, direction);
+            }
+            return;
+        }
+        memcpy(here, there, sizeof here);
+        t = next;
+    }
+}
+
+hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, const hc_tracer *tracer,
+                        const double origin[3], const double direction[3])
+{
+    hc_sight sight = { .distance = INFINITY };
+    if (shape->body == HC_BODY_PLANE) {
+        across_plane(&sight, shape, edge, tracer, origin, direction);
+    } else {
+        through_shell(&sight, shape, tracer, origin, direction);
+    }
+    return sight;
+}

@@ -1,0 +1,20 @@
+/* What a ray of the world comes to: the shell of a body, straight pieces in texture space, a hit. */
+#ifndef HC_RENDER_SIGHT_H
+#define HC_RENDER_SIGHT_H
+
+#include "shape.h"
+
+typedef struct hc_sight {
+    double   distance; /* along the unit direction; INFINITY: nothing        */
+    hc_hit   hit;      /* texture coordinates and height                      */
+    double   cut[3];   /* normal of the cut face it is on; zero: it is on none */
+    uint32_t steps;
+    bool     entered; /* it came to the hull, or to a cut face */
+    bool     unconverged;
+} hc_sight;
+
+/* origin outside the hull; direction of unit length. */
+hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, const hc_tracer *tracer,
+                        const double origin[3], const double direction[3]);
+
+#endif
