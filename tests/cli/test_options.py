@@ -5,7 +5,7 @@ import subprocess
 
 from program import DONE, INPUT_OUTPUT, SOURCE, USAGE, Case, main
 
-COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "trace", "bench"]
+COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "trace", "render", "bench"]
 
 
 class Options(Case):

@@ -4,14 +4,12 @@
 #include "figures.h"
 #include "options.h"
 #include "output.h"
+#include "picture.h"
 #include "words.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Pixels are held in memory, rays are not. */
-static const uint64_t pixels_max = UINT64_C(1) << 28;
 
 /* ---- choices that make no sense together: what is wrong, and the remedy ---- */
 
@@ -63,9 +61,9 @@ static int check_meaning(hc_cli *cli)
     if (settings->rays.secant && settings->rays.refinements > 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--secant and --refinements exclude each other");
     }
-    if ((uint64_t)size->width * (uint64_t)size->height > pixels_max) {
+    if ((uint64_t)size->width * (uint64_t)size->height > HC_CLI_PIXELS_MAX) {
         return hc_cli_fail(cli, HC_CLI_MEMORY, "--size %dx%d: at most %llu pixels are drawn",
-                           size->width, size->height, (unsigned long long)pixels_max);
+                           size->width, size->height, (unsigned long long)HC_CLI_PIXELS_MAX);
     }
     return settings->rays.space != HC_CLI_TEXTURE
                ? HC_CLI_DONE

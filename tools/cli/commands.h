@@ -25,6 +25,7 @@ int hc_cli_run_show(hc_cli *cli);
 int hc_cli_run_compare(hc_cli *cli);
 int hc_cli_run_verify(hc_cli *cli);
 int hc_cli_run_trace(hc_cli *cli);
+int hc_cli_run_render(hc_cli *cli);
 int hc_cli_run_bench(hc_cli *cli);
 
 /* The whole program; returns the exit code. */

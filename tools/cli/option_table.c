@@ -6,9 +6,11 @@
 
 #define TARGET(member) offsetof(hc_cli_settings, member)
 #define LOADS                                                                                      \
-    (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW | HC_CLI_TRACE)
+    (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW | HC_CLI_TRACE       \
+     | HC_CLI_RENDER)
 #define WRITES                                                                                     \
-    (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW | HC_CLI_TRACE)
+    (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW | HC_CLI_TRACE         \
+     | HC_CLI_RENDER)
 #define CASTS (HC_CLI_TRACE | HC_CLI_VERIFY)
 
 const hc_cli_option hc_cli_options[] = {
@@ -151,12 +153,12 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "The very bytes of the 2006 preprocessor, its faults included; implies --layout "
                   "dummer." },
     { .name     = "backend",
-      .commands = HC_CLI_BAKE,
+      .commands = HC_CLI_BAKE | HC_CLI_RENDER,
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(backend),
       .words    = hc_cli_backend_words,
-      .help     = "Where to bake." },
+      .help     = "Where the work is done." },
     { .name     = "isa",
       .commands = HC_CLI_BAKE | HC_CLI_BENCH | HC_CLI_TRACE,
       .section  = HC_CLI_SECTION_MAP,
@@ -238,7 +240,7 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(rays.open_sides),
       .help     = "Rays that come in below the surface do not hit the sides of the field." },
     { .name     = "steps",
-      .commands = CASTS,
+      .commands = CASTS | HC_CLI_RENDER,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_int,
       .target   = TARGET(rays.steps),
@@ -249,7 +251,7 @@ const hc_cli_option hc_cli_options[] = {
       .help = "Steps of published methods (default: 10 for cone-fixed, 32 for linear, relief and "
               "occlusion, 256 for cones)." },
     { .name     = "refinements",
-      .commands = CASTS,
+      .commands = CASTS | HC_CLI_RENDER,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_int,
       .target   = TARGET(rays.refinements),
@@ -288,7 +290,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "three numbers separated by commas",
       .help     = "Where the camera is, in --space. Default: above the bottom row." },
     { .name     = "at",
-      .commands = HC_CLI_TRACE,
+      .commands = HC_CLI_TRACE | HC_CLI_RENDER,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_point,
       .target   = TARGET(rays.at),
@@ -312,6 +314,7 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "WxH",
       .allowed  = "WIDTHxHEIGHT, each 1 to 1048576, or one number for a square",
       .help     = "Pixels of the picture (default 960x540)." },
+#include "option_rows_render.inc"
     { .name     = "rays",
       .commands = HC_CLI_VERIFY,
       .section  = HC_CLI_SECTION_WORK,
@@ -362,7 +365,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "the name of a .png file",
       .help     = "Write the picture, each panel with its scale, instead of drawing it here." },
     { .name     = "heights",
-      .commands = CASTS,
+      .commands = CASTS | HC_CLI_RENDER,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_text,
       .target   = TARGET(heights),

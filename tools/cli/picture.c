@@ -30,11 +30,6 @@ static const colour BACKGROUND = { 24, 24, 24 };
 static const colour INK        = { 230, 230, 230 };
 static const colour UNLIMITED  = { 0, 255, 255 };
 
-typedef struct canvas {
-    uint8_t *rgb;
-    int      width, height;
-} canvas;
-
 /* How a field is brought to the size it is drawn at. */
 typedef struct fit {
     int width, height; /* of the field */
@@ -74,7 +69,7 @@ static colour ramp(double value)
     return (colour){ mixed[0], mixed[1], mixed[2] };
 }
 
-static void put(canvas *c, int x, int y, colour ink)
+static void put(hc_cli_canvas *c, int x, int y, colour ink)
 {
     if (x >= 0 && x < c->width && y >= 0 && y < c->height) {
         uint8_t *pixel = c->rgb + ((size_t)y * (size_t)c->width + (size_t)x) * 3;
@@ -84,12 +79,12 @@ static void put(canvas *c, int x, int y, colour ink)
     }
 }
 
-static int text_width(const char *text)
+int hc_cli_text_width(const char *text)
 {
     return (int)strlen(text) * TEXT_ADVANCE - GLYPH_SCALE;
 }
 
-static void draw_text(canvas *c, int x, int y, const char *text)
+void hc_cli_draw_text(hc_cli_canvas *c, int x, int y, const char *text)
 {
     for (; *text != '\0'; text++, x += TEXT_ADVANCE) {
         for (int row = 0; row < TEXT_HEIGHT; row++) {
@@ -116,7 +111,8 @@ static float largest_under(const hc_cli_panel *panel, const fit *f, int x, int y
     return largest;
 }
 
-static void draw_values(canvas *c, const hc_cli_panel *panel, const fit *f, int left, int top)
+static void draw_values(hc_cli_canvas *c, const hc_cli_panel *panel, const fit *f, int left,
+                        int top)
 {
     for (int y = 0; y < f->drawn_height; y++) {
         for (int x = 0; x < f->drawn_width; x++) {
@@ -128,7 +124,7 @@ static void draw_values(canvas *c, const hc_cli_panel *panel, const fit *f, int 
 }
 
 /* The scale: a bar from 0 to the top value, numbers below its ends and its middle. */
-static void draw_scale(canvas *c, const hc_cli_panel *panel, int left, int top, int width)
+static void draw_scale(hc_cli_canvas *c, const hc_cli_panel *panel, int left, int top, int width)
 {
     char middle[32];
     char end[32];
@@ -141,21 +137,21 @@ static void draw_scale(canvas *c, const hc_cli_panel *panel, int left, int top, 
     (void)snprintf(middle, sizeof middle, "%.2g", panel->top / 2.0);
     (void)snprintf(end, sizeof end, "%.3g", panel->top);
     const int line = top + BAR_HEIGHT + 4;
-    draw_text(c, left, line, "0");
+    hc_cli_draw_text(c, left, line, "0");
     if (panel->top > 0.0) {
-        draw_text(c, left + (width - text_width(middle)) / 2, line, middle);
-        draw_text(c, left + width - text_width(end), line, end);
+        hc_cli_draw_text(c, left + (width - hc_cli_text_width(middle)) / 2, line, middle);
+        hc_cli_draw_text(c, left + width - hc_cli_text_width(end), line, end);
     }
 }
 
-static void draw_panel(canvas *c, const hc_cli_panel *panel, const fit *f, int left, int top)
+static void draw_panel(hc_cli_canvas *c, const hc_cli_panel *panel, const fit *f, int left, int top)
 {
-    draw_text(c, left, top, panel->title);
+    hc_cli_draw_text(c, left, top, panel->title);
     draw_values(c, panel, f, left, top + ABOVE);
     draw_scale(c, panel, left, top + ABOVE + f->drawn_height + MARGIN, f->panel_width);
 }
 
-static void clear(canvas *c)
+static void clear(hc_cli_canvas *c)
 {
     for (int y = 0; y < c->height; y++) {
         for (int x = 0; x < c->width; x++) {
@@ -165,7 +161,7 @@ static void clear(canvas *c)
 }
 
 /* Panels row by row, two side by side; without `labels` neither titles nor scales. */
-static hc_result draw_panels(canvas *c, hc_cli *cli, const hc_cli_panel *panels, int count,
+static hc_result draw_panels(hc_cli_canvas *c, hc_cli *cli, const hc_cli_panel *panels, int count,
                              int width, int height, bool labels)
 {
     const fit f       = fit_field(width, height);
@@ -173,7 +169,7 @@ static hc_result draw_panels(canvas *c, hc_cli *cli, const hc_cli_panel *panels,
     const int rows    = (count + ACROSS - 1) / ACROSS;
     const int step_x  = (labels ? f.panel_width : f.drawn_width) + MARGIN;
     const int step_y  = f.drawn_height + MARGIN + (labels ? ABOVE + BELOW : 0);
-    *c     = (canvas){ .width = MARGIN + columns * step_x, .height = MARGIN + rows * step_y };
+    *c = (hc_cli_canvas){ .width = MARGIN + columns * step_x, .height = MARGIN + rows * step_y };
     c->rgb = malloc((size_t)c->width * (size_t)c->height * 3);
     if (c->rgb == NULL) {
         (void)snprintf(cli->log.text, sizeof cli->log.text, "out of memory");
@@ -195,8 +191,8 @@ static hc_result draw_panels(canvas *c, hc_cli *cli, const hc_cli_panel *panels,
 hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *panels, int count,
                              int width, int height)
 {
-    canvas    c;
-    hc_result result = draw_panels(&c, cli, panels, count, width, height, true);
+    hc_cli_canvas c;
+    hc_result     result = draw_panels(&c, cli, panels, count, width, height, true);
     if (result == HC_OK) {
         result = hc_save_picture(c.rgb, c.width, c.height, path, &cli->settings.save, &cli->log);
         free(c.rgb);
@@ -207,7 +203,7 @@ hc_result hc_cli_save_panels(hc_cli *cli, const char *path, const hc_cli_panel *
 hc_result hc_cli_print_panels(hc_cli *cli, const hc_cli_panel *panels, int count, int width,
                               int height)
 {
-    canvas          c;
+    hc_cli_canvas   c;
     const hc_result result = draw_panels(&c, cli, panels, count, width, height, false);
     if (result == HC_OK) {
         hc_cli_terminal_draw(c.rgb, c.width, c.height);

@@ -4,6 +4,19 @@
 
 #include "cli.h"
 
+/* Pictures are held in memory: larger ones are refused. */
+#define HC_CLI_PIXELS_MAX (UINT64_C(1) << 28)
+
+/* 8-bit RGB pixels, row-major. */
+typedef struct hc_cli_canvas {
+    uint8_t *rgb;
+    int      width, height;
+} hc_cli_canvas;
+
+/* Light letters with their upper left corner at (x, y), and how wide they are. */
+void hc_cli_draw_text(hc_cli_canvas *c, int x, int y, const char *text);
+int  hc_cli_text_width(const char *text);
+
 /* One channel. Values >= 0; INFINITY gets a colour of its own. */
 typedef struct hc_cli_panel {
     const float *values; /* width * height, row-major          */

@@ -47,6 +47,12 @@ const hc_cli_command hc_cli_commands[] = {
       "only their number and the time are shown. Rays and hits stream: any number of them takes "
       "little memory. docs/formats.md has the numbers of rays and hits.",
       false },
+    { "render", HC_CLI_RENDER, hc_cli_run_render, "relief FIELD", 2, 2,
+      "Draw a height field as relief on a body",
+      "FIELD is a height map, or a baked map that holds the heights. Rays are cast at the relief "
+      "itself, so it has true depth, shadows and silhouettes; there is no mesh. Heights are "
+      "stretched to the full depth unless --range says otherwise.",
+      false },
     { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace]", 0, 1,
       "Measure the baker, or the casters of rays",
       "Each measurement runs in a process of its own, so that its peak memory is known.", true },

@@ -144,6 +144,18 @@ bool hc_cli_read_rise(const hc_cli_option *option, const char *text, hc_cli_sett
            && ends[0] < ends[1];
 }
 
+bool hc_cli_read_tiles(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    int      *tiles = target_of(option, settings);
+    const int most  = (int)option->high;
+    if (whole_until(text, '\0', 1, most, &tiles[0], &text)) {
+        tiles[1] = tiles[0];
+        return true;
+    }
+    return whole_until(text, ',', 1, most, &tiles[0], &text)
+           && whole_until(text, '\0', 1, most, &tiles[1], &text);
+}
+
 /* "u16be" and the like: the type, and the byte order behind it. */
 static bool read_sample_type(const char *text, hc_load_options *load)
 {

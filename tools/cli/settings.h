@@ -4,7 +4,7 @@
 
 #include <heightcast/bake.h>
 #include <heightcast/io.h>
-#include <heightcast/trace.h>
+#include <heightcast/render.h>
 
 #define HC_CLI_PATHS_MAX 2
 #define HC_CLI_OPTIONS_MAX 96 /* rows of the option table */
@@ -37,6 +37,23 @@ typedef struct hc_cli_rays {
     float        fov; /* degrees across the picture; 0: 60 */
 } hc_cli_rays;
 
+/* How a bracket between above and below the surface is refined. */
+typedef enum hc_cli_refine { HC_CLI_BINARY = 0, HC_CLI_SECANT, HC_CLI_NO_REFINEMENT } hc_cli_refine;
+
+/* render */
+typedef struct hc_cli_render {
+    hc_body       body;
+    hc_edge       edge;
+    hc_view       view;
+    hc_cli_refine refine;
+    float         depth, aspect, ortho, top;
+    int           repeat[2];
+    int           samples;
+    double        camera[3], light[3], lamp[3], colour[3];
+    int           shadows; /* 0: on, 1: off */
+    const char   *albedo, *depth_out;
+} hc_cli_render;
+
 /* All zero: the defaults, as the library's own option structs have them. */
 typedef struct hc_cli_settings {
     const char     *paths[HC_CLI_PATHS_MAX]; /* what is not an option, in order */
@@ -57,6 +74,7 @@ typedef struct hc_cli_settings {
     const char     *report; /* bench: file for --json, "-" is standard output */
     const char     *csv;
     hc_cli_rays     rays;
+    hc_cli_render   render;
     bool            json, quiet, verbose, help, version;
     bool            given[HC_CLI_OPTIONS_MAX]; /* which rows of the option table were */
 } hc_cli_settings;

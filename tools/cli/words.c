@@ -100,3 +100,36 @@ const char *hc_cli_compat_words(int index)
     static const char *const words[] = { "2006", NULL };
     return words[index];
 }
+
+/* The reference is no tracer that a picture can be drawn with. */
+const char *hc_cli_tracer_words(int index)
+{
+    return index < hc_trace_method_count() ? hc_cli_marcher_words(index) : NULL;
+}
+
+const char *hc_cli_body_words(int index)
+{
+    return hc_body_name((hc_body)index);
+}
+
+const char *hc_cli_edge_words(int index)
+{
+    return hc_edge_name((hc_edge)index);
+}
+
+const char *hc_cli_view_words(int index)
+{
+    return hc_view_name((hc_view)index);
+}
+
+const char *hc_cli_refine_words(int index)
+{
+    static const char *const words[] = { "binary", "secant", "none", NULL };
+    return words[index];
+}
+
+const char *hc_cli_switch_words(int index)
+{
+    static const char *const words[] = { "on", "off", NULL };
+    return words[index];
+}

@@ -1,0 +1,156 @@
+"""heightcast render relief: pictures of relief, what is refused, files that are not left behind."""
+
+import math
+import struct
+
+from picture import read_picture
+from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, USAGE, Case, main
+
+BODIES = ["plane", "cylinder", "sphere", "torus"]
+METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick"]
+SMALL = ["--size", "32x24", "--samples", "1", "--overwrite"]
+
+
+class Render(Case):
+    def render(self, *arguments, field=None, out="a.png", **options):
+        return self.json("render", "relief", field or self.hills(), "--out", out, *SMALL, *arguments,
+                         **options)
+
+    def picture(self, *arguments, **options):
+        self.render(*arguments, **options)
+        return read_picture(self.path("a.png").read_bytes())
+
+    def test_defaults_draw_a_picture(self):
+        figures = self.json("render", "relief", ELEVATIONS, "--out", "a.png", "--size", "96x64")
+        width, height, rows = read_picture(self.path("a.png").read_bytes())
+        self.assertEqual((width, height), (96, 64))
+        self.assertEqual((figures["method"], figures["object"], figures["view"]),
+                         ("safe", "plane", "shaded"))
+        self.assertEqual(figures["rays"], 4 * 96 * 64)
+        self.assertGreater(figures["hits"], 0.3 * figures["rays"])
+        self.assertLess(figures["hits"], 0.9 * figures["rays"])
+        bright = [max(row[i : i + 3]) for row in rows for i in range(0, len(row), 3)]
+        self.assertGreater(max(bright), 180)
+        self.assertLess(min(bright), 70)
+
+    def test_bodies_and_methods(self):
+        self.hills()
+        for body in BODIES:
+            for method in METHODS:
+                with self.subTest(body=body, method=method):
+                    figures = self.render("--object", body, "--method", method)
+                    self.assertGreater(figures["hits"], 50)
+                    self.assertEqual((figures["object"], figures["method"]), (body, method))
+
+    def test_views_differ(self):
+        views = ["shaded", "height", "normal", "depth", "steps", "unconverged", "missed", "error"]
+        seen = {}
+        for view in views:
+            seen[view] = self.picture("--view", view, "--method", "cone-fixed", "--steps", "3")
+        for view in views:
+            for other in views:
+                if view < other:
+                    self.assertNotEqual(seen[view], seen[other], f"{view} {other}")
+
+    def test_safe_loses_nothing_and_few_steps_do(self):
+        for body in BODIES:
+            truth = self.render("--view", "missed", "--object", body)
+            self.assertEqual((truth["lost"], truth["made_up"]), (0, 0))
+        few = self.render("--view", "missed", "--method", "linear", "--steps", "2")
+        self.assertGreater(few["lost"], 0)
+
+    def test_same_bytes_for_every_number_of_threads(self):
+        self.assertEqual(self.picture("-j", "1"), self.picture("-j", "3"))
+
+    def test_refinements(self):
+        pictures = [self.picture("--method", "relief", "--steps", "6", "--refine", how,
+                                 "--view", "height") for how in ["none", "secant", "binary"]]
+        self.assertNotEqual(pictures[0], pictures[1])
+        self.assertNotEqual(pictures[1], pictures[2])
+        one = self.picture("--method", "relief", "--steps", "6", "--refinements", "1", "--view",
+                           "height")
+        self.assertNotEqual(one, pictures[2])
+
+    def test_scene_options_change_the_picture(self):
+        plain = self.picture()
+        for option in [["--depth", "0.4"], ["--repeat", "3"], ["--repeat", "2,1"], ["--aspect", "0.5"],
+                       ["--camera", "0,-3,3"], ["--ortho", "3"], ["--fov", "60"],
+                       ["--light", "1,0,0.2"], ["--lamp", "0,0,1"], ["--shadows", "off"],
+                       ["--colour", "0.1,0.5,0.1"], ["--at", "0.5,0,0", "--camera", "0,-3,3"]]:
+            with self.subTest(option=option):
+                if option == ["--shadows", "off"]:
+                    low = ["--light", "1,0,0.3"]
+                    self.assertNotEqual(self.picture(*low), self.picture(*low, *option))
+                else:
+                    self.assertNotEqual(plain, self.picture(*option))
+
+    def test_edges(self):
+        flat = ["--camera", "0,-4,0.05"]
+        self.assertGreater(self.render(*flat)["hits"], self.render(*flat, "--edge", "discard")["hits"])
+
+    def test_albedo(self):
+        self.path("red.ppm").write_bytes(b"P6\n1 1\n255\n" + bytes([200, 0, 0]))
+        self.write_pgm("grey.pgm", [[128]])
+        _, _, rows = self.picture("--albedo", "red.ppm")
+        middle = rows[12][3 * 16 : 3 * 16 + 3]
+        self.assertGreater(middle[0], middle[1] + 40)
+        _, _, rows = self.picture("--albedo", "grey.pgm")
+        middle = rows[12][3 * 16 : 3 * 16 + 3]
+        self.assertLess(max(middle) - min(middle), 3)
+        self.refused("render", "relief", self.hills(), "--out", "b.png", "--albedo", "no.png",
+                     code=INPUT_OUTPUT, says="no.png")
+
+    def test_maps_are_drawn_with_their_own_cones(self):
+        self.hills()
+        self.run_program("bake", "hills.pgm", "map.exr", "--cones", "l1", "--range", "data")
+        figures = self.render(field="map.exr")
+        self.assertNotIn("bake", figures["seconds"])
+        self.assertGreater(figures["hits"], 100)
+        self.refused("render", "relief", "map.exr", "--out", "b.png", "--object", "torus", code=USAGE,
+                     says=["field.wrap is none", "torus"])
+
+    def test_float_outputs(self):
+        self.render("--depth-out", "depth.npy", "--camera", "0,0,3", "--ortho", "4", out="a.exr")
+        self.assertEqual(self.path("a.exr").read_bytes()[:4], struct.pack("<I", 20000630))
+        shape, depths = self.read_npy("depth.npy")
+        self.assertEqual(shape, (24, 32))
+        self.assertTrue(math.isinf(depths[0]))
+        self.assertTrue(3 <= depths[12 * 32 + 16] <= 3.16 + 1e-5)
+
+    def test_what_makes_no_sense(self):
+        field = self.hills()
+        for arguments, says in [
+            (["relief", field], "needs --out"),
+            (["terrain", field, "--out", "b.png"], "'terrain'; relief is"),
+            (["relief", field, "--out", "b.jpg"], ".png, .exr"),
+            (["relief", field, "--out", "b.png", "--depth-out", "d.png"], ".exr, .pfm, .npy"),
+            (["relief", field, "--out", "b.png", "--lamp", "0,0,1", "--light", "0,0,1"], "exclude"),
+            (["relief", field, "--out", "b.png", "--refine", "none", "--refinements", "3"],
+             "--refine none"),
+            (["relief", field, "--out", "b.png", "--cones", "l2"], "l1 or quad"),
+            (["relief", field, "--out", "b.png", "--object", "torus", "--depth", "0.5"],
+             "relief.depth is 0.5"),
+            (["relief", field, "--out", "b.png", "--repeat", "2", "--wrap", "none"], "wraps along u"),
+            (["relief", field, "--out", "b.png", "--method", "reference"], "allowed are fast"),
+            (["relief", field, "--out", "b.png", "--samples", "0"], "1 to 256"),
+            (["relief", field, "--out", "b.png", "--size", "65537"], "65536"),
+        ]:
+            with self.subTest(says=says):
+                self.refused("render", *arguments, code=USAGE, says=says)
+        self.refused("render", "relief", "none.pgm", "--out", "b.png", code=INPUT_OUTPUT, says="none")
+        self.path("bad.pgm").write_bytes(b"P5 3")
+        self.refused("render", "relief", "bad.pgm", "--out", "b.png", code=BAD_FILE, says="bad.pgm")
+        self.path("a.png").write_bytes(b"precious")
+        self.refused("render", "relief", field, "--out", "a.png", code=INPUT_OUTPUT,
+                     says="--overwrite")
+        self.assertEqual(self.path("a.png").read_bytes(), b"precious")
+        self.assertEqual(self.files(), ["a.png", "bad.pgm", "hills.pgm"])
+
+    def test_too_large(self):
+        self.refused("render", "relief", self.hills(), "--out", "b.png", "--size", "32768x16384",
+                     code=MEMORY, says="pixels")
+
+
+if __name__ == "__main__":
+    main()

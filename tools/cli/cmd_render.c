@@ -1,0 +1,233 @@
+/* heightcast render relief: a field as relief on a body, into a picture. */
+#include "commands.h"
+#include "figures.h"
+#include "options.h"
+#include "output.h"
+#include "picture.h"
+#include "relief.h"
+#include "words.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    WIDTH         = 960,
+    HEIGHT        = 640,
+    LEGEND_HEIGHT = 8,
+    LEGEND_LEAST  = 160,
+    MARGIN        = 10,
+    SIDE_MAX      = 65536
+};
+
+/* ---- choices that make no sense ---- */
+
+static int check_ending(hc_cli *cli, const char *option, const char *path, const char *endings)
+{
+    const hc_container *container = hc_container_of(path);
+    if (container == NULL || strstr(endings, container->endings[0]) == NULL) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: the ending must be one of %s", option, path,
+                           endings);
+    }
+    return hc_cli_check_output(cli, path);
+}
+
+static int check_outputs(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    if (settings->out == NULL) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --out FILE.png");
+    }
+    int code = check_ending(cli, "out", settings->out, ".png, .exr");
+    if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
+        code = check_ending(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
+    }
+    return code;
+}
+
+static int check_meaning(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const hc_cones         cones    = settings->map.cone.cones;
+    if (strcmp(settings->paths[0], "relief") != 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "nothing that is drawn is called '%s'; relief is",
+                           settings->paths[0]);
+    }
+    if (settings->size.width > SIDE_MAX || settings->size.height > SIDE_MAX) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--size %dx%d: sides are at most %d",
+                           settings->size.width, settings->size.height, SIDE_MAX);
+    }
+    if ((uint64_t)settings->size.width * (uint64_t)settings->size.height > HC_CLI_PIXELS_MAX) {
+        return hc_cli_fail(cli, HC_CLI_MEMORY, "--size %dx%d: at most %llu pixels are drawn",
+                           settings->size.width, settings->size.height,
+                           (unsigned long long)HC_CLI_PIXELS_MAX);
+    }
+    if (hc_cli_given(settings, "lamp") && hc_cli_given(settings, "light")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--lamp and --light exclude each other");
+    }
+    if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",
+                           hc_cli_refine_words((int)settings->render.refine));
+    }
+    if (hc_cli_given(settings, "cones") && cones != HC_CONES_L1 && cones != HC_CONES_QUAD) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
+                           hc_cones_name(cones));
+    }
+    if (settings->backend == HC_CLI_GL) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl: this build draws on the CPU; use cpu");
+    }
+    return HC_CLI_DONE;
+}
+
+/* ---- the legend of heat maps ---- */
+
+static bool has_legend(const hc_cli *cli, const hc_picture *picture)
+{
+    const hc_view view = cli->settings.render.view;
+    return (view == HC_VIEW_STEPS || view == HC_VIEW_ERROR) && picture->width >= LEGEND_LEAST
+           && picture->height >= LEGEND_LEAST / 2;
+}
+
+/* In the lower left corner, where the background is. */
+static void draw_legend(hc_cli_canvas *c, hc_view view, double top)
+{
+    const int  width = c->width / 3;
+    const int  y     = c->height - MARGIN - LEGEND_HEIGHT;
+    const int  line  = y - 14;
+    char       end[32];
+    float      linear[3];
+    uint8_t    codes[3];
+    hc_picture one = { .width = 1, .height = 1, .rgb = linear };
+    for (int x = 0; x < width; x++) {
+        hc_heat_colour(linear, (double)x / (width - 1));
+        hc_picture_bytes(codes, &one);
+        for (int i = 0; i < LEGEND_HEIGHT; i++) {
+            memcpy(c->rgb + ((size_t)(y + i) * (size_t)c->width + (size_t)(MARGIN + x)) * 3, codes,
+                   3);
+        }
+    }
+    (void)snprintf(end, sizeof end, "%.3g", top);
+    hc_cli_draw_text(c, MARGIN, line, "0");
+    hc_cli_draw_text(c, MARGIN + (width - hc_cli_text_width("STEPS")) / 2, line,
+                     view == HC_VIEW_STEPS ? "steps" : "error");
+    hc_cli_draw_text(c, MARGIN + width - hc_cli_text_width(end), line, end);
+}
+
+/* ---- the work ---- */
+
+static hc_result save_png(hc_cli *cli, const hc_picture *picture)
+{
+    hc_cli_canvas c = { .width = picture->width, .height = picture->height };
+    c.rgb           = malloc((size_t)c.width * (size_t)c.height * 3);
+    if (c.rgb == NULL) {
+        (void)snprintf(cli->log.text, sizeof cli->log.text, "out of memory");
+        return HC_ERROR_MEMORY;
+    }
+    hc_picture_bytes(c.rgb, picture);
+    if (has_legend(cli, picture)) {
+        draw_legend(&c, cli->settings.render.view, picture->figures.top);
+    }
+    const hc_result result = hc_save_picture(c.rgb, c.width, c.height, cli->settings.out,
+                                             &cli->settings.save, &cli->log);
+    free(c.rgb);
+    return result;
+}
+
+static hc_result save(hc_cli *cli, const hc_picture *picture)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const char            *depths   = settings->render.depth_out;
+    hc_result              result   = HC_OK;
+    if (strcmp(hc_container_of(settings->out)->name, "PNG") == 0) {
+        result = save_png(cli, picture);
+    } else {
+        result = hc_save_floats(picture->rgb, picture->width, picture->height, 3, settings->out,
+                                &settings->save, &cli->log);
+    }
+    if (result == HC_OK && depths != NULL) {
+        result = hc_save_floats(picture->depth, picture->width, picture->height, 1, depths,
+                                &settings->save, &cli->log);
+    }
+    return result;
+}
+
+static void show(hc_cli *cli, const hc_picture *picture)
+{
+    const hc_cli_settings   *settings = &cli->settings;
+    const hc_render_figures *f        = &picture->figures;
+    const hc_view            view     = settings->render.view;
+    hc_cli_text(cli, "input", settings->paths[1]);
+    hc_cli_text(cli, "output", settings->out);
+    if (settings->render.depth_out != NULL) {
+        hc_cli_text(cli, "depth_output", settings->render.depth_out);
+    }
+    hc_cli_show_size(cli, picture->width, picture->height);
+    hc_cli_text(cli, "object", hc_body_name(settings->render.body));
+    hc_cli_text(cli, "method", hc_cli_tracer_words(settings->rays.method));
+    hc_cli_text(cli, "view", hc_view_name(view));
+    hc_cli_number(cli, "rays", (double)f->rays, NULL);
+    hc_cli_number(cli, "hits", (double)f->hits, NULL);
+    hc_cli_number(cli, "unconverged", (double)f->unconverged, NULL);
+    hc_cli_number(cli, "mean_steps", f->mean_steps, NULL);
+    if (view == HC_VIEW_MISSED || view == HC_VIEW_ERROR) {
+        hc_cli_number(cli, "lost", (double)f->lost, NULL);
+        hc_cli_number(cli, "made_up", (double)f->made_up, NULL);
+        hc_cli_number(cli, "mean_error", f->mean_error, NULL);
+    }
+    if (f->top > 0.0) {
+        hc_cli_number(cli, "top", f->top, NULL);
+    }
+}
+
+static bool take_memory(hc_picture *picture, const hc_cli_settings *settings)
+{
+    const size_t count = (size_t)picture->width * (size_t)picture->height;
+    picture->rgb       = malloc(count * 3 * sizeof *picture->rgb);
+    if (settings->render.depth_out != NULL) {
+        picture->depth = malloc(count * sizeof *picture->depth);
+    }
+    return picture->rgb != NULL && (picture->depth != NULL || settings->render.depth_out == NULL);
+}
+
+static int draw(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
+{
+    const hc_cli_settings  *settings = &cli->settings;
+    const hc_render_options options  = { .view     = settings->render.view,
+                                         .top      = settings->render.top,
+                                         .threads  = settings->threads,
+                                         .progress = hc_cli_progress(cli) };
+    if (!take_memory(picture, settings)) {
+        return hc_cli_fail_memory(cli);
+    }
+    hc_cli_phase(cli, "cast");
+    hc_result result = hc_render(picture, &relief->scene, &options, &cli->log);
+    hc_cli_phase(cli, "save");
+    result = result == HC_OK ? save(cli, picture) : result;
+    hc_cli_phase(cli, NULL);
+    if (result == HC_OK) {
+        show(cli, picture);
+    }
+    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+}
+
+int hc_cli_run_render(hc_cli *cli)
+{
+    const hc_cli_size size    = cli->settings.size;
+    hc_picture        picture = { .width  = size.width > 0 ? size.width : WIDTH,
+                                  .height = size.width > 0 ? size.height : HEIGHT };
+    hc_cli_relief     relief;
+    int               code = check_meaning(cli);
+    code                   = code == HC_CLI_DONE ? check_outputs(cli) : code;
+    if (code != HC_CLI_DONE) {
+        return code;
+    }
+    code = hc_cli_relief_load(&relief, cli, cli->settings.paths[1]);
+    if (code == HC_CLI_DONE) {
+        code = draw(cli, &relief, &picture);
+    }
+    free(picture.depth);
+    free(picture.rgb);
+    hc_cli_relief_free(&relief);
+    return code;
+}
