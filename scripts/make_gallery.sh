@@ -29,4 +29,17 @@ $program compare $work/exact.exr $work/quick-improved.exr \
 $program trace data/jacksboro_fault_dem.pgm --range data --space local --spacing 74.5,92.5 \
     --eye 15000,-35000,5000 --at 15000,-14000,0 --picture $gallery/jacksboro_view.png \
     --overwrite -q
+
+# relief NAME FIELD OPTION...
+relief() {
+    local name=$1 field=$2
+    shift 2
+    $program render relief "$field" --out $gallery/$name.png --overwrite -q "$@"
+}
+
+$program gen cobbles $work/tile.npy --size 256 --seed 1 --overwrite -q
+relief relief data/jacksboro_fault_dem.pgm
+for body in cylinder sphere torus; do
+    relief relief_$body $work/tile.npy --object $body --size 640x480
+done
 ls $gallery/*.png
