@@ -28,7 +28,7 @@ typedef struct bench {
     const hc_bench_trace_options *options;
     const char                   *name;
     hc_field                      field;
-    hc_ray                       *rays[HC_RAYS_SETS];
+    hc_ray                       *rays[HC_RAYS_TIMED];
     hc_hit                       *hits; /* of one set; or its bytes, for any hit */
     size_t                        count;
 } bench;
@@ -153,7 +153,7 @@ static void measure(const bench *b, const stage *s, int mode, int set, int threa
 static hc_result measure_all(const bench *b, const stage *s)
 {
     const int threads = b->options->threads > 0 ? b->options->threads : DEFAULT_THREADS;
-    for (int set = 0; set < HC_RAYS_SETS; set++) {
+    for (int set = 0; set < HC_RAYS_TIMED; set++) {
         for (int mode = 0; mode < HC_PEER_MODES && s->peer->modes[mode] != NULL; mode++) {
             for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
                 if (stopped(b->options)) {
@@ -196,34 +196,12 @@ static hc_result run_peers(const bench *b)
     return result;
 }
 
-static int mirrored(int i, int side)
-{
-    const int at = i % (2 * side);
-    return at < side ? at : 2 * side - 1 - at;
-}
-
-static hc_result make_field(float *heights, int side, const hc_bench_ground *ground, uint64_t seed,
-                            hc_log *log)
-{
-    const hc_field *tile = ground->tile;
-    if (tile == NULL) {
-        return hc_synth(heights, side, side, ground->name, seed, log);
-    }
-    for (int y = 0; y < side; y++) {
-        const float *row = tile->heights + (size_t)mirrored(y, tile->height) * (size_t)tile->width;
-        for (int x = 0; x < side; x++) {
-            heights[(size_t)y * (size_t)side + (size_t)x] = row[mirrored(x, tile->width)];
-        }
-    }
-    return HC_OK;
-}
-
 static bool take(bench *b, float **heights, int side)
 {
     bool taken = true;
     *heights   = malloc((size_t)side * (size_t)side * sizeof **heights);
     b->hits    = calloc(b->count, sizeof *b->hits);
-    for (int set = 0; set < HC_RAYS_SETS; set++) {
+    for (int set = 0; set < HC_RAYS_TIMED; set++) {
         b->rays[set] = malloc(b->count * sizeof **b->rays);
         taken        = taken && b->rays[set] != NULL;
     }
@@ -239,16 +217,16 @@ static hc_result run_field(const hc_bench_trace_options *options, const hc_bench
                          .field   = { .width = side, .height = side },
                          .count   = options->rays > 0 ? options->rays : HC_RAYS_PICTURE };
     hc_result result = take(&b, &heights, side)
-                           ? make_field(heights, side, ground, options->seed, log)
+                           ? hc_bench_fill_ground(heights, side, ground, options->seed, log)
                            : HC_ERROR_MEMORY;
     b.field.heights  = heights;
     if (result == HC_OK) {
-        for (int set = 0; set < HC_RAYS_SETS; set++) {
+        for (int set = 0; set < HC_RAYS_TIMED; set++) {
             hc_bench_fill_rays(b.rays[set], b.count, (hc_bench_rays)set, &b.field);
         }
         result = run_peers(&b);
     }
-    for (int set = 0; set < HC_RAYS_SETS; set++) {
+    for (int set = 0; set < HC_RAYS_TIMED; set++) {
         free(b.rays[set]);
     }
     free(b.hits);

@@ -2,6 +2,8 @@
 #ifndef HC_BENCH_TRACE_BENCH_H
 #define HC_BENCH_TRACE_BENCH_H
 
+#include "ground.h"
+
 #include <heightcast/trace.h>
 
 typedef struct hc_bench_trace_row {
@@ -19,12 +21,6 @@ typedef struct hc_bench_trace_row {
     double      build_seconds; /* processor time                                             */
     double      bytes;         /* held; 0: not known                                         */
 } hc_bench_trace_row;
-
-/* A field: a made one, or samples that are repeated, mirrored, to any size. */
-typedef struct hc_bench_ground {
-    const char     *name;
-    const hc_field *tile; /* NULL: made */
-} hc_bench_ground;
 
 typedef struct hc_bench_trace_options {
     const hc_bench_ground *fields;

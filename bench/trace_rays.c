@@ -9,7 +9,7 @@ static const double EYE = 0.002;
 
 const char *hc_bench_rays_name(int set)
 {
-    static const char *const names[] = { "fly", "walk", "sight", "shadow", "random" };
+    static const char *const names[] = { "fly", "walk", "sight", "shadow", "random", "graze" };
     return set >= 0 && set < HC_RAYS_SETS ? names[set] : NULL;
 }
 
@@ -140,6 +140,59 @@ static hc_ray random_ray(const hc_field *field, uint64_t *state)
     return ray;
 }
 
+/* The way through (x, y) over the whole field: where it begins and, added to that, ends. */
+static void whole_way(double begin[2], double way[2], const double middle[2],
+                      const double direction[2])
+{
+    double from = -INFINITY;
+    double to   = INFINITY;
+    for (int k = 0; k < 2; k++) {
+        const double low  = -middle[k] / direction[k];
+        const double high = (1.0 - middle[k]) / direction[k];
+        from              = direction[k] == 0.0 ? from : fmax(from, fmin(low, high));
+        to                = direction[k] == 0.0 ? to : fmin(to, fmax(low, high));
+    }
+    for (int k = 0; k < 2; k++) {
+        begin[k] = middle[k] + from * direction[k];
+        way[k]   = (to - from) * direction[k];
+    }
+}
+
+/* Least height at which a ray that rises by `rise` on its way stays above the ground. */
+static double skim(const hc_field *field, const double begin[2], const double way[2], double rise)
+{
+    const int points = 2 * field->width;
+    double    least  = 0.0;
+    for (int i = 0; i <= points; i++) {
+        const double part = (double)i / points;
+        least = fmax(least, ground(field, begin[0] + part * way[0], begin[1] + part * way[1])
+                                - part * rise);
+    }
+    return least;
+}
+
+static hc_ray graze_ray(const hc_field *field, uint64_t *state)
+{
+    static const double compass[][2] = { { 1, 0 }, { -1, 0 }, { 0, 1 },  { 0, -1 },
+                                         { 1, 1 }, { -1, 1 }, { 1, -1 }, { -1, -1 } };
+    double              direction[2] = { 0.0, 0.0 };
+    double              begin[2];
+    double              way[2];
+    const double        middle[2] = { next_random(state), next_random(state) };
+    const size_t        which     = (size_t)(16.0 * next_random(state));
+    for (int k = 0; k < 2; k++) {
+        direction[k] = which < 8 ? compass[which][k] : 2.0 * next_random(state) - 1.0;
+    }
+    whole_way(begin, way, middle, direction);
+    const double rise   = HC_RAYS_RELIEF * 0.02 * (next_random(state) - 0.5);
+    const double sign   = next_random(state) < 0.5 ? 1.0 : -1.0;
+    const double hair   = sign * HC_RAYS_RELIEF * ldexp(1.0, -6 - (int)(13.0 * next_random(state)));
+    const double height = skim(field, begin, way, rise) + hair;
+    return (hc_ray){ .origin    = { (float)begin[0], (float)begin[1], (float)height },
+                     .direction = { (float)way[0], (float)way[1], (float)rise },
+                     .tmax      = INFINITY };
+}
+
 void hc_bench_fill_rays(hc_ray *rays, size_t count, hc_bench_rays set, const hc_field *field)
 {
     uint64_t state = 88172645463325252U;
@@ -153,6 +206,7 @@ void hc_bench_fill_rays(hc_ray *rays, size_t count, hc_bench_rays set, const hc_
     for (size_t i = 0; i < count; i++) {
         rays[i] = set == HC_RAYS_SIGHT    ? sight_ray(field, &state)
                   : set == HC_RAYS_SHADOW ? shadow_ray(field, i, count)
+                  : set == HC_RAYS_GRAZE  ? graze_ray(field, &state)
                                           : random_ray(field, &state);
     }
 }

@@ -7,13 +7,18 @@
 /* fly, walk  a picture of 1920 x 1080 from high above and from eye height, in tiles of 4 x 4
  * sight      between two ground points, at eye height: is anything between?
  * shadow     from ground points to a sun 15 degrees high
- * random     from anywhere above the ground into any direction */
+ * random     from anywhere above the ground into any direction
+ * graze      across the whole field, nearly level, by a hair above or below the highest ground on
+ *            the way; half of them along rows, columns and diagonals of samples, as crests of made
+ *            fields run. Not timed */
 typedef enum hc_bench_rays {
     HC_RAYS_FLY = 0,
     HC_RAYS_WALK,
     HC_RAYS_SIGHT,
     HC_RAYS_SHADOW,
     HC_RAYS_RANDOM,
+    HC_RAYS_TIMED,
+    HC_RAYS_GRAZE = HC_RAYS_TIMED,
     HC_RAYS_SETS
 } hc_bench_rays;
 

@@ -105,7 +105,42 @@ class Bench(Case):
             self.assertEqual(len(list(csv.DictReader(file))), len(rows))
         self.assertNotIn("nan", table)
 
+    def steps(self, *options):
+        return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", *options, "--json"))
+
+    def test_steps(self):
+        report = self.steps("--field", "fbm,spikes", "-j", 1, "--csv", "steps.csv")
+        rows = {(r["field"], r["side"], r["rays"], r["method"]): r for r in report["rows"]}
+        self.assertEqual(len(rows), 2 * 3 * 6 * 3)
+        for (field, side, rays, method), row in rows.items():
+            self.assertLessEqual(row["mean_steps"], row["worst_steps"])
+            self.assertLessEqual(row["steps_99"], row["worst_steps"])
+            # All three find every hit.
+            self.assertAlmostEqual(row["hits"], rows[field, side, rays, "safe"]["hits"], delta=1e-4)
+        for graze in [row for row in report["rows"] if row["rays"] == "graze"]:
+            self.assertGreater(graze["hits"], 0.4)
+            self.assertLess(graze["hits"], 0.8)
+        with open(self.path("steps.csv"), newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual([float(line["worst_steps"]) for line in lines],
+                         [row["worst_steps"] for row in report["rows"]])
+        self.assertEqual(report["rows"], self.steps("--field", "fbm,spikes", "-j", 2)["rows"])
+
+    def test_growth_of_steps(self):
+        report = self.steps("--methods", "maxmip")
+        rows = {(r["side"], r["rays"]): r for r in report["rows"]}
+        self.assertEqual({f["rays"] for f in report["figures"]},
+                         {"fly", "walk", "sight", "shadow", "random", "graze"})
+        for figure in report["figures"]:
+            self.assertEqual((figure["from_side"], figure["to_side"]), (16, 32))
+            small, large = rows[16, figure["rays"]], rows[32, figure["rays"]]
+            self.assertAlmostEqual(figure["growth_mean"],
+                                   large["mean_steps"] / small["mean_steps"])
+            self.assertAlmostEqual(figure["growth_worst"],
+                                   large["worst_steps"] / small["worst_steps"])
+
     def test_usage(self):
+        self.refused("bench", "steps", "--methods", "fast,linear", code=USAGE, says="maxmip")
         self.refused("bench", "render", code=USAGE, says="'render'")
         self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")
         self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])

@@ -27,6 +27,19 @@ void hc_cli_csv_add(hc_cli_csv *csv, const char *line)
     csv->size += length;
 }
 
+/* Room grows by doubling from 64 rows, so the count alone says when it is used up. */
+void *hc_cli_add_row(void *rows, int count, const void *row, size_t size)
+{
+    const bool full = count == 0 || (count >= 64 && (count & (count - 1)) == 0);
+    if (full) {
+        rows = realloc(rows, (size_t)(count == 0 ? 64 : 2 * count) * size);
+    }
+    if (rows != NULL) {
+        memcpy((char *)rows + (size_t)count * size, row, size);
+    }
+    return rows;
+}
+
 /* Figures that are not known stay empty. */
 static const char *number_or_nothing(char *text, size_t size, int digits, double value)
 {
@@ -132,17 +145,13 @@ void hc_cli_bench_row(void *user, const hc_bench_row *row)
     hc_cli_bench *bench = user;
     /* The bar was drawn by the process that measured; this one must clear it. */
     bench->cli->bar.shown = bench->cli->bar.enabled;
-    if (bench->count == bench->capacity) {
-        const int     capacity = bench->capacity == 0 ? 64 : 2 * bench->capacity;
-        hc_bench_row *grown    = realloc(bench->rows, (size_t)capacity * sizeof *grown);
-        if (grown == NULL) {
-            bench->failed = true;
-            return;
-        }
-        bench->rows     = grown;
-        bench->capacity = capacity;
+    hc_bench_row *rows    = hc_cli_add_row(bench->rows, bench->count, row, sizeof *row);
+    if (rows == NULL) {
+        bench->failed = true;
+        return;
     }
-    bench->rows[bench->count++] = *row;
+    bench->rows = rows;
+    bench->count++;
     add_json_row(bench, row);
     add_csv_row(bench, row);
     say_row(bench, row);

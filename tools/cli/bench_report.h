@@ -17,11 +17,15 @@ typedef struct hc_cli_csv {
 
 void hc_cli_csv_add(hc_cli_csv *csv, const char *line);
 
+/* Append a row of `size` bytes to rows[count], which is NULL or came from here: the rows, perhaps
+ * moved, or NULL if memory ran out; the old ones are then still there. */
+void *hc_cli_add_row(void *rows, int count, const void *row, size_t size);
+
 typedef struct hc_cli_bench {
     hc_cli          *cli;
     hc_bench_machine machine;
     hc_bench_row    *rows; /* their field names are those of the command line */
-    int              count, capacity;
+    int              count;
     cJSON           *list; /* member "rows" of cli->json                      */
     hc_cli_csv       csv;
     bool             failed; /* memory ran out: rows are missing              */

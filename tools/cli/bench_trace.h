@@ -1,10 +1,12 @@
-/* `bench trace`, and what it shares with `bench bake`. */
+/* `bench trace` and `bench steps`, and what they share with `bench bake`. */
 #ifndef HC_CLI_BENCH_TRACE_H
 #define HC_CLI_BENCH_TRACE_H
 
 #include "cli.h"
 #include "lists.h"
 #include "options.h"
+
+#include "bench/ground.h"
 
 /* Split the value of --NAME and check each item against `words` (NULL: none). */
 int hc_cli_read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
@@ -15,6 +17,21 @@ int hc_cli_read_sides(hc_cli *cli, hc_cli_list *sides, int numbers[HC_CLI_LIST_M
 /* cli->json and the text of the CSV, where they are asked for. */
 int hc_cli_write_reports(hc_cli *cli, const char *csv);
 
+/* What the options --sizes, --field and --methods name. Zero: nothing. */
+typedef struct hc_cli_grounds {
+    hc_cli_list     sides, fields, methods;
+    int             numbers[HC_CLI_LIST_MAX];
+    hc_bench_ground grounds[HC_CLI_LIST_MAX];
+    hc_field        tiles[HC_CLI_LIST_MAX];
+} hc_cli_grounds;
+
+/* Fields are names of made ones, or files: what has a dot. hc_cli_free_grounds must follow,
+ * whatever the exit code is. */
+int hc_cli_read_grounds(hc_cli *cli, hc_cli_grounds *grounds, const char *fields, const char *sides,
+                        hc_cli_words *methods);
+void hc_cli_free_grounds(hc_cli_grounds *grounds);
+
 int hc_cli_run_bench_trace(hc_cli *cli);
+int hc_cli_run_bench_steps(hc_cli *cli);
 
 #endif

@@ -78,13 +78,18 @@ static int read_lists(hc_cli *cli, bench_lists *lists)
     return code;
 }
 
+/* Without a word, for bake. */
+static bool asks_for(const hc_cli *cli, const char *what)
+{
+    return strcmp(cli->settings.path_count == 1 ? cli->settings.paths[0] : "bake", what) == 0;
+}
+
 static int check_arguments(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
-    if (settings->path_count == 1 && strcmp(settings->paths[0], "bake") != 0
-        && strcmp(settings->paths[0], "trace") != 0) {
+    if (!asks_for(cli, "bake") && !asks_for(cli, "trace") && !asks_for(cli, "steps")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
-                           "nothing to measure is called '%s'; bake and trace are",
+                           "nothing to measure is called '%s'; bake, trace and steps are",
                            settings->paths[0]);
     }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
@@ -145,9 +150,8 @@ int hc_cli_run_bench(hc_cli *cli)
     hc_cli_bench bench = { .cli = cli };
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
     int code           = check_arguments(cli);
-    if (code == HC_CLI_DONE && cli->settings.path_count == 1
-        && strcmp(cli->settings.paths[0], "trace") == 0) {
-        return hc_cli_run_bench_trace(cli);
+    if (code == HC_CLI_DONE && !asks_for(cli, "bake")) {
+        return asks_for(cli, "trace") ? hc_cli_run_bench_trace(cli) : hc_cli_run_bench_steps(cli);
     }
     code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
     if (code != HC_CLI_DONE) {

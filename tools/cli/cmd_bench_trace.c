@@ -5,8 +5,6 @@
 
 #include "bench/trace_bench.h"
 
-#include <heightcast/io.h>
-
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -18,18 +16,11 @@ typedef struct report {
     hc_cli             *cli;
     hc_bench_machine    machine;
     hc_bench_trace_row *rows; /* one scene and size after another */
-    int                 count, capacity;
+    int                 count;
     cJSON              *list;
     hc_cli_csv          csv;
     bool                failed;
 } report;
-
-typedef struct inputs {
-    hc_cli_list     sides, fields, casters;
-    int             numbers[HC_CLI_LIST_MAX];
-    hc_bench_ground grounds[HC_CLI_LIST_MAX];
-    hc_field        tiles[HC_CLI_LIST_MAX];
-} inputs;
 
 static void add_json(report *r, const hc_bench_trace_row *row)
 {
@@ -52,20 +43,16 @@ static void add_json(report *r, const hc_bench_trace_row *row)
 
 static void row_done(void *user, const hc_bench_trace_row *row)
 {
-    report      *r       = user;
-    const double samples = (double)row->side * (double)row->side;
-    char         line[LINE_MAX_BYTES];
-    if (r->count == r->capacity) {
-        const int           capacity = r->capacity == 0 ? 64 : 2 * r->capacity;
-        hc_bench_trace_row *grown    = realloc(r->rows, (size_t)capacity * sizeof *grown);
-        if (grown == NULL) {
-            r->failed = true;
-            return;
-        }
-        r->rows     = grown;
-        r->capacity = capacity;
+    report             *r       = user;
+    const double        samples = (double)row->side * (double)row->side;
+    char                line[LINE_MAX_BYTES];
+    hc_bench_trace_row *rows = hc_cli_add_row(r->rows, r->count, row, sizeof *row);
+    if (rows == NULL) {
+        r->failed = true;
+        return;
     }
-    r->rows[r->count++] = *row;
+    r->rows = rows;
+    r->count++;
     add_json(r, row);
     (void)snprintf(line, sizeof line, "%s,%d,%s,%s,%s,%d,%zu,%d,%.6g,%.6g,%.4g,%.6g,%.0f\n",
                    row->field, row->side, row->rays, row->caster, row->mode, row->threads,
@@ -149,49 +136,20 @@ static void add_figures(report *r)
     }
 }
 
-/* Names of made fields, or files: what has a dot. */
-static int read_fields(hc_cli *cli, inputs *in)
-{
-    const char *text = cli->settings.fields == NULL ? "fbm" : cli->settings.fields;
-    int         code = hc_cli_read_list(cli, &in->fields, "field", text, NULL);
-    for (int i = 0; code == HC_CLI_DONE && i < in->fields.count; i++) {
-        const char *item = in->fields.items[i];
-        const char *name = strrchr(item, '/');
-        in->grounds[i]   = (hc_bench_ground){ .name = name == NULL ? item : name + 1 };
-        if (strchr(item, '.') != NULL) {
-            const hc_result result =
-                hc_load_field(&in->tiles[i], item, &cli->settings.load, &cli->log);
-            in->grounds[i].tile = &in->tiles[i];
-            code                = result == HC_OK ? code : hc_cli_fail_result(cli, result);
-        }
-    }
-    return code;
-}
-
-static int read_inputs(hc_cli *cli, inputs *in)
-{
-    int code = hc_cli_read_sides(cli, &in->sides, in->numbers, "1024");
-    if (code == HC_CLI_DONE && cli->settings.methods != NULL) {
-        code =
-            hc_cli_read_list(cli, &in->casters, "methods", cli->settings.methods, hc_bench_caster);
-    }
-    return code == HC_CLI_DONE ? read_fields(cli, in) : code;
-}
-
 static bool stop_asked(void)
 {
     return hc_cli_caught_signal() != 0;
 }
 
-static int measure(hc_cli *cli, const inputs *in, report *r)
+static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
 {
     const hc_cli_settings       *settings = &cli->settings;
     const hc_bench_trace_options options  = { .fields       = in->grounds,
                                               .field_count  = in->fields.count,
                                               .sides        = in->numbers,
                                               .side_count   = in->sides.count,
-                                              .casters      = in->casters.items,
-                                              .caster_count = in->casters.count,
+                                              .casters      = in->methods.items,
+                                              .caster_count = in->methods.count,
                                               .seed         = settings->seed,
                                               .repeat       = settings->repeat,
                                               .threads      = settings->threads,
@@ -221,9 +179,9 @@ static void begin(report *r)
 
 int hc_cli_run_bench_trace(hc_cli *cli)
 {
-    inputs in   = { 0 };
-    report r    = { .cli = cli };
-    int    code = read_inputs(cli, &in);
+    hc_cli_grounds in   = { 0 };
+    report         r    = { .cli = cli };
+    int            code = hc_cli_read_grounds(cli, &in, "fbm", "1024", hc_bench_caster);
     if (code == HC_CLI_DONE) {
         begin(&r);
         code = measure(cli, &in, &r);
@@ -232,9 +190,7 @@ int hc_cli_run_bench_trace(hc_cli *cli)
         add_figures(&r);
         code = hc_cli_write_reports(cli, r.csv.text);
     }
-    for (int i = 0; i < HC_CLI_LIST_MAX; i++) {
-        hc_free_field(&in.tiles[i]);
-    }
+    hc_cli_free_grounds(&in);
     free(r.rows);
     free(r.csv.text);
     return code;

@@ -396,7 +396,8 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(sizes),
       .metavar  = "N,...",
       .allowed  = "sides from 1 to 1048576, separated by commas",
-      .help     = "Sides of the square fields (default 512,4096; trace: 1024)." },
+      .help = "Sides of the square fields (default 512,4096; trace: 1024; steps: 64,128,256,512,"
+              "1024)." },
     { .name     = "field",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -404,7 +405,8 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(fields),
       .metavar  = "NAME,...",
       .allowed  = "names that 'heightcast gen --list' shows, separated by commas",
-      .help     = "Generated fields (default fbm). trace also takes files, repeated as tiles." },
+      .help     = "Generated fields (default fbm). trace and steps also take files, repeated as "
+                  "tiles." },
     { .name     = "methods",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -413,7 +415,8 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "NAME,...",
       .allowed  = "methods, and maps such as pyramid, separated by commas",
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
-                  "sizes); trace: these casters (default: all that are built in)." },
+                  "sizes); trace: these casters (default: all that are built in); steps: of fast, "
+                  "safe and maxmip (default: all)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
