@@ -74,6 +74,10 @@ typedef enum hc_trace_needs {
 } hc_trace_needs;
 HC_API hc_trace_needs hc_trace_method_needs(hc_trace_method method);
 
+/* What options.steps and options.refinements of 0 stand for; steps 0: the method counts none. */
+HC_API int hc_trace_method_steps(hc_trace_method method);
+#define HC_REFINEMENTS_DEFAULT 6
+
 typedef struct hc_trace_options {
     hc_trace_method method;
     hc_surface      surface;    /* steps: fast, safe, maxmip and qdm only                         */
@@ -123,6 +127,11 @@ HC_API size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *opt
  * `rise` [height] upwards or downwards and `reach` [samples] sideways (hc_reference_options), with
  * t rounded to float. docs/algorithms.md derives both. */
 HC_API void hc_tracer_tolerance(const hc_tracer *tracer, double *rise, double *reach);
+
+/* The pyramid that maxmip and qdm walk, for those who walk it elsewhere, such as in a shader: the
+ * highest corner of each cell (qdm and steps: the samples), and above it the maximum of what is
+ * below. Lives as long as the tracer; NULL for other methods. */
+HC_API const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer);
 
 /* ---- hot ------------------------------------------------------------------------------------- */
 

@@ -10,9 +10,11 @@ hc_image_ray hc_image_ray_of(const hc_tracer *tracer, const hc_path *path)
     const double dv       = path->along[1] / tracer->axes[1].steps;
     const double dz       = path->along[2];
     const double floor_at = dz < 0.0 ? hc_path_reaches(path, 2, 0.0) : INFINITY;
+    /* path->end may lie beyond tmax by rounding, and a hit there would count for nothing. */
+    const double last = fmin(path->end, path->tmax - path->t0);
     return (hc_image_ray){ .run    = sqrt(du * du + dv * dv),
                            .length = sqrt(du * du + dv * dv + dz * dz),
-                           .end    = fmax(fmin(path->end, floor_at), path->from) };
+                           .end    = fmax(fmin(last, floor_at), path->from) };
 }
 
 double hc_image_gap(const hc_tracer *tracer, const hc_path *path, double s)

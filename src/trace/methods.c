@@ -37,6 +37,11 @@ hc_trace_needs hc_trace_method_needs(hc_trace_method method)
     return (unsigned)method < COUNT ? hc_trace_methods[method].needs : HC_NEEDS_NOTHING;
 }
 
+int hc_trace_method_steps(hc_trace_method method)
+{
+    return (unsigned)method < COUNT ? hc_trace_methods[method].steps : 0;
+}
+
 const char *hc_surface_name(hc_surface surface)
 {
     static const char *const names[] = { "bilinear", "steps" };

@@ -9,7 +9,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { STEPS_MAX = 65536, REFINEMENTS_MAX = 64, THREADS_MAX = 1024, REFINEMENTS = 6 };
+enum { STEPS_MAX = 65536, REFINEMENTS_MAX = 64, THREADS_MAX = 1024 };
 
 /* ---- checks -------------------------------------------------------------------------------- */
 
@@ -102,9 +102,10 @@ static hc_tracer plan(const hc_field *field, const hc_trace_options *options)
                                             .march   = facts->march };
     made.tops          = options->surface == HC_SURFACE_STEPS || options->method == HC_TRACE_QDM;
     made.options.steps = options->steps != 0 ? options->steps : facts->steps;
-    made.options.refinements = options->refinements != 0 ? options->refinements : REFINEMENTS;
-    made.height_offset       = placed ? options->placement.offset[2] : 0.0;
-    made.height_scale        = placed ? options->placement.scale_z : 1.0;
+    made.options.refinements =
+        options->refinements != 0 ? options->refinements : HC_REFINEMENTS_DEFAULT;
+    made.height_offset = placed ? options->placement.offset[2] : 0.0;
+    made.height_scale  = placed ? options->placement.scale_z : 1.0;
     hc_axis_make(&made.axes[0], field, options, made.tops, false);
     hc_axis_make(&made.axes[1], field, options, made.tops, true);
     return made;
@@ -175,6 +176,11 @@ size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *options)
     }
     const size_t fast = given->method == HC_TRACE_FAST ? hc_fast_bytes(field, given) : 0;
     return sizeof(hc_tracer) + bounds_bytes(field, given) + fast;
+}
+
+const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer)
+{
+    return tracer->bounds.values != NULL ? &tracer->bounds : NULL;
 }
 
 /* docs/algorithms.md, section 19, counts the roundings. */

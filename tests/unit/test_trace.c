@@ -95,9 +95,33 @@ static void refusals_name_the_culprit(void **state)
     hc_tracer_destroy(NULL);
 }
 
+/* The pyramid that others may walk: the highest corner of each cell first, 1 x 1 last. */
+static void bounds_are_lent(void **state)
+{
+    (void)state;
+    const hc_field   field   = field_of(plane);
+    hc_trace_options options = { .method = HC_TRACE_MAXMIP };
+    hc_tracer       *tracer;
+    assert_int_equal(hc_tracer_create(&tracer, &field, &options, NULL), HC_OK);
+    const hc_pyramid *bounds = hc_tracer_bounds(tracer);
+    assert_non_null(bounds);
+    assert_int_equal(bounds->width, field.width);
+    assert_true(bounds->values[0] == fmaxf(plane[1], plane[field.width + 1]));
+    const float *last = hc_pyramid_level(bounds, bounds->levels - 1, NULL, NULL);
+    assert_true(last[0] == plane[field.width * field.height - 1]);
+    hc_tracer_destroy(tracer);
+    options.method = HC_TRACE_LINEAR;
+    assert_int_equal(hc_tracer_create(&tracer, &field, &options, NULL), HC_OK);
+    assert_null(hc_tracer_bounds(tracer));
+    hc_tracer_destroy(tracer);
+}
+
 static void names_and_needs(void **state)
 {
     (void)state;
+    assert_int_equal(hc_trace_method_steps(HC_TRACE_CONE_FIXED), 10);
+    assert_int_equal(hc_trace_method_steps(HC_TRACE_SAFE), 0);
+    assert_int_equal(hc_trace_method_steps((hc_trace_method)99), 0);
     assert_int_equal(hc_trace_method_count(), HC_TRACE_QUICK + 1);
     assert_string_equal(hc_trace_method_name(HC_TRACE_CONE_EXACT), "cone-exact");
     assert_string_equal(hc_trace_method_name((hc_trace_method)-1), "unknown");
@@ -309,10 +333,9 @@ static void fan_of_rays(hc_ray *rays, int count)
 {
     for (int i = 0; i < count; i++) {
         const float angle = 10.0F * (float)i / (float)count;
-        rays[i]           = (hc_ray){ { 0.5F, 0.5F, 0.3F },
-                                      0.0F,
-                                      { 1.0F - angle, angle - 3.0F, 9.0F - angle },
-                                      INFINITY };
+        rays[i]           = (hc_ray){
+                      { 0.5F, 0.5F, 0.3F }, 0.0F, { 1.0F - angle, angle - 3.0F, 9.0F - angle }, INFINITY
+        };
     }
 }
 
@@ -379,6 +402,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refusals_name_the_culprit),
+        cmocka_unit_test(bounds_are_lent),
         cmocka_unit_test(names_and_needs),
         cmocka_unit_test(a_plane_is_hit_where_it_is),
         cmocka_unit_test(normals_of_a_plane_and_of_a_wall),

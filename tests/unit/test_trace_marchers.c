@@ -107,6 +107,26 @@ static void quick_refines_a_bracket(void **state)
     assert_int_equal(hit.steps, 1);
 }
 
+/* The last of equal steps is at tmax, and a hit there counts. */
+static void linear_reaches_tmax(void **state)
+{
+    (void)state;
+    const hc_trace_options options = { .method = HC_TRACE_LINEAR, .steps = 3 };
+    hc_ray                 ray     = ray_at(0.75F, 0.5F, 1.5F, 0.0F, 0.0F, -0.5F);
+    hc_hit                 hit;
+    ray.tmax = 1.0F; /* at height 1, where steep is level */
+    assert_true(fire(steep, &options, ray, &hit));
+    assert_true(hit.t == 1.0F);
+    ray.origin[2] = 1.0F;
+    ray.origin[0] = 0.40625F; /* sample 6: height 13/16 */
+    ray.tmax      = 0.375F;
+    assert_true(fire(steep, &options, ray, &hit));
+    assert_true(hit.t == 0.375F);
+    assert_int_equal(hit.steps, 3);
+    ray.tmax = 0.37F;
+    assert_false(fire(steep, &options, ray, &hit));
+}
+
 /* ---- relaxed -------------------------------------------------------------------------------- */
 
 /* A ray that goes into the step does not come out of it, so no relaxed cone is limited by it: from
@@ -223,6 +243,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(quick_halves_the_gap_across_a_slope),
         cmocka_unit_test(quick_refines_a_bracket),
+        cmocka_unit_test(linear_reaches_tmax),
         cmocka_unit_test(relaxed_goes_into_a_step_and_back),
         cmocka_unit_test(relaxed_stops_at_a_tower),
         cmocka_unit_test(robust_goes_straight_down),
