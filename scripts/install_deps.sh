@@ -16,14 +16,16 @@ build=(gcc libc6-dev cmake ninja-build pkgconf libspng-dev libtiff-dev libopenex
     libcjson-dev)
 # pictures in the terminal; libchafa-dev of Debian 12 does not ask for the second
 chafa=(libchafa-dev libglib2.0-dev)
+# OpenGL without a window, and what it draws with where there is no GPU
+gl=(libepoxy-dev libegl1 libgl1-mesa-dri)
 case $set_name in
 build) wanted=("${build[@]}") ;;
-demo) wanted=("${build[@]}" "${chafa[@]}") ;;
+demo) wanted=("${build[@]}" "${chafa[@]}" "${gl[@]}") ;;
 test)
     # clang, g++: the other compilers. libgdal-dev: its readers are tested too. The rest reads our
     # files independently.
-    wanted=("${build[@]}" "${chafa[@]}" libcmocka-dev binutils python3 clang g++ libgdal-dev
-        gdal-bin imagemagick openexr libtiff-tools)
+    wanted=("${build[@]}" "${chafa[@]}" "${gl[@]}" libcmocka-dev binutils python3 clang g++
+        libgdal-dev gdal-bin imagemagick openexr libtiff-tools glslang-tools)
     if ! command -v npm >/dev/null; then # others package node.js as one piece
         wanted+=(nodejs npm)
     fi

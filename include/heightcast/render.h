@@ -109,10 +109,16 @@ typedef enum hc_view {
 } hc_view;
 HC_API const char *hc_view_name(hc_view view); /* as above; NULL beyond the last. Static */
 
+/* cpu  what all others are compared with; every method
+ * gl   OpenGL 4.3 core through EGL, without a window, by the shaders in shaders/; every method but
+ *      fast, in float32. On the GPU, or where there is none in Mesa's software renderer */
+typedef enum hc_backend { HC_BACKEND_CPU = 0, HC_BACKEND_GL } hc_backend;
+
 typedef struct hc_render_options {
     hc_view     view;
+    hc_backend  backend;
     float       top; /* of heat maps: steps, or world units; 0: the 99 % quantile of those found */
-    int         threads; /* [0 .. 1024]  0: one per core; same bytes for every number             */
+    int         threads; /* cpu  [0 .. 1024]  0: one per core; same bytes for every number        */
     hc_progress progress;
 } hc_render_options;
 
@@ -123,7 +129,9 @@ typedef struct hc_render_figures {
     uint64_t lost, made_up; /* views missed and error: against the exact caster      */
     double   mean_steps;    /* of view rays that come to the hull                   */
     double   mean_error;    /* view error: over rays that hit in both [world units] */
+    double   mean_fetches;  /* gl: texels read by them; cpu: 0                      */
     double   top;           /* of the heat map, as it was drawn                     */
+    double   seconds;       /* spent drawing, less building, compiling and loading  */
 } hc_render_figures;
 
 typedef struct hc_picture {
@@ -134,15 +142,18 @@ typedef struct hc_picture {
     hc_render_figures figures; /* [out] */
 } hc_picture;
 
-/* Draw `scene` into `picture`. Same bytes on every machine and for every number of threads.
+/* Draw `scene` into `picture`. The CPU gives the same bytes on every machine and for every number of
+ * threads; GL agrees with it but for rounding in float32 (docs/algorithms.md, section 21.4).
  *
  * On round bodies the ray is bent in texture space: it is followed in straight pieces that are
  * nowhere farther than 1/512 of the relief's depth from it, and a method starts anew on each. So
  * cones stay as safe as they are on the plane; docs/algorithms.md has the bound.
  *
- * Memory: 68 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers
- * out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY;
- * HC_ERROR_CANCELLED. */
+ * Memory: 72 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers
+ * out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY, on the GPU too;
+ * HC_ERROR_CANCELLED. gl: HC_ERROR_UNSUPPORTED where there is no EGL, or no OpenGL 4.3, or this build
+ * has none, and for fast; HC_ERROR_LIMIT for fields and pictures that are too large for it;
+ * HC_ERROR_IO if the context is lost. */
 HC_API hc_result hc_render(hc_picture *picture, const hc_scene *scene,
                            const hc_render_options *options, hc_log *log);
 

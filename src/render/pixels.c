@@ -52,6 +52,7 @@ void hc_pixel_add(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sampl
         pixel->hits++;
     }
     pixel->steps += sample->steps;
+    pixel->fetches += sample->fetches;
     pixel->entered += sample->entered ? 1 : 0;
     pixel->unconverged += sample->unconverged ? 1 : 0;
     if (hc_view_compares(stage->options.view)) {
@@ -211,9 +212,10 @@ static double top_of_most(const hc_stage *stage, const hc_pixel *pixels, size_t 
 static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pixel *pixels,
                   size_t pixel_count)
 {
-    double   steps = 0.0, error = 0.0;
+    double   steps = 0.0, error = 0.0, fetches = 0.0;
     uint64_t entered = 0, both = 0;
-    *figures = (hc_render_figures){ .rays = pixel_count * (uint64_t)stage->scene.camera.samples };
+    *figures = (hc_render_figures){ .rays    = pixel_count * (uint64_t)stage->scene.camera.samples,
+                                    .seconds = figures->seconds };
     for (size_t i = 0; i < pixel_count; i++) {
         const hc_pixel *p = &pixels[i];
         figures->hits += (uint64_t)p->hits;
@@ -223,10 +225,12 @@ static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pi
         entered += (uint64_t)p->entered;
         both += (uint64_t)p->both;
         steps += (double)p->steps;
+        fetches += (double)p->fetches;
         error += (double)p->error;
     }
-    figures->mean_steps = entered > 0 ? steps / (double)entered : 0.0;
-    figures->mean_error = both > 0 ? error / (double)both : 0.0;
+    figures->mean_steps   = entered > 0 ? steps / (double)entered : 0.0;
+    figures->mean_fetches = entered > 0 ? fetches / (double)entered : 0.0;
+    figures->mean_error   = both > 0 ? error / (double)both : 0.0;
 }
 
 void hc_pixels_finish(hc_picture *picture, const hc_stage *stage, const hc_pixel *pixels,

@@ -1,5 +1,7 @@
 /* From a scene to a picture. */
+#include "clock.h"
 #include "cpu.h"
+#include "gl/gl.h"
 
 #include "base/fail.h"
 
@@ -29,6 +31,17 @@ const char *hc_view_name(hc_view view)
     return name_of(names, 8, (unsigned)view);
 }
 
+static hc_result draw_by(hc_pixel *pixels, double *seconds, const hc_stage *stage, hc_log *log)
+{
+    if (stage->options.backend == HC_BACKEND_GL) {
+        return hc_gl_draw(pixels, seconds, stage, log);
+    }
+    const double    start  = hc_clock_now();
+    const hc_result result = hc_cpu_draw(pixels, stage, log);
+    *seconds               = hc_clock_now() - start;
+    return result;
+}
+
 static hc_result draw(hc_picture *picture, const hc_stage *stage, hc_log *log)
 {
     const size_t count   = (size_t)picture->width * (size_t)picture->height;
@@ -39,7 +52,7 @@ static hc_result draw(hc_picture *picture, const hc_stage *stage, hc_log *log)
         result = hc_fail(log, HC_ERROR_MEMORY, "no memory for a picture of %d x %d pixels",
                          picture->width, picture->height);
     } else {
-        result = hc_cpu_draw(pixels, stage, log);
+        result = draw_by(pixels, &picture->figures.seconds, stage, log);
     }
     if (result == HC_OK) {
         hc_pixels_finish(picture, stage, pixels, scratch);

@@ -12,7 +12,7 @@ typedef struct hc_sample {
     float exact;    /* of the exact caster, in views that compare       */
     float normal[3];
     float height;
-    float steps;
+    float steps, fetches;
     bool  entered, unconverged;
 } hc_sample;
 
@@ -20,7 +20,7 @@ typedef struct hc_sample {
 typedef struct hc_pixel {
     float rgb[3];
     float normal[3];
-    float height, depth, steps, error;
+    float height, depth, steps, fetches, error;
     int   hits, entered, unconverged, lost, made_up, both;
 } hc_pixel;
 

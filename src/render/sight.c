@@ -11,6 +11,10 @@ static const double BEND = 1.0 / 512.0;
 /* Near the axis, where u turns ever faster, pieces do not get shorter than on this radius. */
 static const double RADIUS_LEAST = 0.004;
 
+/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field that
+ * wraps would begin. */
+static const double BRINK = 1e-6;
+
 enum { PIECES_MAX = 1024 }; /* far more than a ray needs; a bound for NaNs */
 
 typedef struct span {
@@ -55,7 +59,7 @@ static void set_cut(hc_sight *sight, int axis, const double direction[3])
 
 static bool starts_in_solid(const hc_hit *hit)
 {
-    return hit->t < 1e-6F && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) != 0;
+    return !(hit->t > 0.0F) && (hit->flags & (HC_HIT_INSIDE | HC_HIT_SIDE)) != 0;
 }
 
 /* ---- the plane ------------------------------------------------------------------------------- */
@@ -76,6 +80,10 @@ static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge,
     hc_shape_place(shape, a, point);
     hc_add_scaled(point, origin, s.to, direction);
     hc_shape_place(shape, b, point);
+    for (int i = 0; i < 2; i++) {
+        a[i] = fmin(fmax(a[i], 0.0), shape->repeat[i]);
+        b[i] = fmin(fmax(b[i], BRINK), shape->repeat[i] - BRINK);
+    }
     if (!march(sight, tracer, a, b)) {
         return;
     }

@@ -100,6 +100,7 @@ static hc_result check_rest(const hc_scene *scene, const hc_render_options *opti
     CHECK(check_number("camera.fov", c->fov, 0.0F, 170.0F, log));
     CHECK(check_number("camera.orthographic", c->orthographic, 0.0F, 1e6F, log));
     CHECK(check_whole("camera.samples", c->samples, 0, SAMPLES_MAX, log));
+    CHECK(check_whole("options.backend", (int)options->backend, 0, HC_BACKEND_GL, log));
     CHECK(check_whole("options.view", (int)options->view, 0, VIEWS - 1, log));
     CHECK(check_number("options.top", options->top, 0.0F, 1e9F, log));
     return check_whole("options.threads", options->threads, 0, 1024, log);
@@ -125,6 +126,12 @@ static void resolve_relief(hc_relief *relief)
     static const int   repeats[][2] = { { 1, 1 }, { 2, 1 }, { 4, 2 }, { 4, 2 } };
     set_if_zero(&relief->depth, depths[relief->body]);
     set_if_zero(&relief->aspect, (float)relief->field.height / (float)relief->field.width);
+    if (relief->trace.steps == 0) {
+        relief->trace.steps = hc_trace_method_steps(relief->trace.method);
+    }
+    if (relief->trace.refinements == 0) {
+        relief->trace.refinements = HC_REFINEMENTS_DEFAULT;
+    }
     for (int i = 0; i < 2; i++) {
         relief->repeat[i] = relief->repeat[i] == 0 ? repeats[relief->body][i] : relief->repeat[i];
     }

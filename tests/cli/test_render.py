@@ -1,6 +1,7 @@
 """heightcast render relief: pictures of relief, what is refused, files that are not left behind."""
 
 import math
+import os
 import struct
 
 from picture import read_picture
@@ -117,6 +118,29 @@ class Render(Case):
         self.assertEqual(shape, (24, 32))
         self.assertTrue(math.isinf(depths[0]))
         self.assertTrue(3 <= depths[12 * 32 + 16] <= 3.16 + 1e-5)
+
+    def test_without_opengl_the_cpu_draws(self):
+        self.hills()
+        on_cpu = self.picture()
+        for variable, value in [("__EGL_VENDOR_LIBRARY_FILENAMES", "/nowhere.json"),
+                                ("MESA_GL_VERSION_OVERRIDE", "3.3")]:
+            with self.subTest(variable=variable):
+                figures = self.render("--backend", "gl", env={**os.environ, variable: value})
+                if figures["backend"] == "gl":
+                    self.skipTest("this driver does not listen")
+                self.assertIn("OpenGL", figures["warnings"][0])
+                self.assertIn("the CPU draws", figures["warnings"][0])
+                self.assertEqual(read_picture(self.path("a.png").read_bytes()), on_cpu)
+
+    def test_opengl_draws_the_same(self):
+        on_cpu = self.picture("--view", "height")
+        figures = self.render("--view", "height", "--backend", "gl")
+        if figures["backend"] == "cpu":
+            self.skipTest(figures["warnings"][0])
+        self.assertGreater(figures["mean_fetches"], figures["mean_steps"])
+        on_gl = read_picture(self.path("a.png").read_bytes())
+        odd = sum(abs(a - b) > 2 for p, q in zip(on_cpu[2], on_gl[2]) for a, b in zip(p, q))
+        self.assertLessEqual(odd, 3)
 
     def test_what_makes_no_sense(self):
         field = self.hills()

@@ -43,6 +43,7 @@ c++ -std=c++17 "$source/core_only.cpp" -o consumer/core_by_pkg_config \
 # what a person gets
 "$prefix/bin/heightcast" --version
 test -s "$prefix/share/man/man1/heightcast.1"
+test -s "$prefix/share/heightcast/shaders/heightcast.glsl"
 
 if [ "$kind" = shared ]; then
     readelf -d "$library/libheightcast.so" | grep -q 'SONAME.*\[libheightcast\.so\.[0-9]*\]'

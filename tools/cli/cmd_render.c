@@ -74,9 +74,6 @@ static int check_meaning(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
                            hc_cones_name(cones));
     }
-    if (settings->backend == HC_CLI_GL) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl: this build draws on the CPU; use cpu");
-    }
     return HC_CLI_DONE;
 }
 
@@ -166,10 +163,14 @@ static void show(hc_cli *cli, const hc_picture *picture)
     hc_cli_text(cli, "object", hc_body_name(settings->render.body));
     hc_cli_text(cli, "method", hc_cli_tracer_words(settings->rays.method));
     hc_cli_text(cli, "view", hc_view_name(view));
+    hc_cli_text(cli, "backend", hc_cli_backend_words((int)settings->backend));
     hc_cli_number(cli, "rays", (double)f->rays, NULL);
     hc_cli_number(cli, "hits", (double)f->hits, NULL);
     hc_cli_number(cli, "unconverged", (double)f->unconverged, NULL);
     hc_cli_number(cli, "mean_steps", f->mean_steps, NULL);
+    if (settings->backend == HC_CLI_GL) {
+        hc_cli_number(cli, "mean_fetches", f->mean_fetches, NULL);
+    }
     if (view == HC_VIEW_MISSED || view == HC_VIEW_ERROR) {
         hc_cli_number(cli, "lost", (double)f->lost, NULL);
         hc_cli_number(cli, "made_up", (double)f->made_up, NULL);
@@ -190,18 +191,33 @@ static bool take_memory(hc_picture *picture, const hc_cli_settings *settings)
     return picture->rgb != NULL && (picture->depth != NULL || settings->render.depth_out == NULL);
 }
 
+/* Where there is no OpenGL the CPU draws, as long as it may. */
+static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
+{
+    hc_cli_settings  *settings = &cli->settings;
+    hc_render_options options  = { .view     = settings->render.view,
+                                   .backend  = settings->backend == HC_CLI_GL ? HC_BACKEND_GL
+                                                                              : HC_BACKEND_CPU,
+                                   .top      = settings->render.top,
+                                   .threads  = settings->threads,
+                                   .progress = hc_cli_progress(cli) };
+    hc_result         result   = hc_render(picture, &relief->scene, &options, &cli->log);
+    if (result == HC_ERROR_UNSUPPORTED && settings->backend == HC_CLI_GL) {
+        hc_cli_warn(cli, "%s; the CPU draws", cli->log.text);
+        settings->backend = HC_CLI_CPU;
+        options.backend   = HC_BACKEND_CPU;
+        result            = hc_render(picture, &relief->scene, &options, &cli->log);
+    }
+    return result;
+}
+
 static int draw(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
 {
-    const hc_cli_settings  *settings = &cli->settings;
-    const hc_render_options options  = { .view     = settings->render.view,
-                                         .top      = settings->render.top,
-                                         .threads  = settings->threads,
-                                         .progress = hc_cli_progress(cli) };
-    if (!take_memory(picture, settings)) {
+    if (!take_memory(picture, &cli->settings)) {
         return hc_cli_fail_memory(cli);
     }
     hc_cli_phase(cli, "cast");
-    hc_result result = hc_render(picture, &relief->scene, &options, &cli->log);
+    hc_result result = cast(cli, relief, picture);
     hc_cli_phase(cli, "save");
     result = result == HC_OK ? save(cli, picture) : result;
     hc_cli_phase(cli, NULL);

@@ -1,0 +1,348 @@
+/* relief.frag: relief on a plane, a cylinder, a sphere or a torus, a ray for each pixel. Stands behind
+ * heightcast.glsl, whose marchers it uses, and draws what heightcast/render.h describes; functions
+ * are named as in src/render and stand in the same order.
+ *
+ * It shows how to use those marchers: bodies and the curved rays round them (place_of, along_shell),
+ * normals (shade), shadows (in_shadow), depth for the depth buffer (main). */
+
+/* Bodies, as HC_BODY: */
+#define PLANE 0
+#define CYLINDER 1
+#define SPHERE 2
+#define TORUS 3
+
+uniform vec3  u_eye, u_forward, u_right, u_down; /* forward: unit; right, down: to the picture's edges,
+                                                    at distance 1 or, orthographic, in the world */
+uniform bool  u_orthographic;
+uniform vec2  u_picture;     /* pixels */
+uniform float u_first_row;   /* rows are drawn from the top, some at a time */
+uniform vec2  u_sample;      /* where in the pixel, 0 .. 1, y down */
+uniform vec2  u_depth_range; /* near and far plane */
+
+uniform int   u_body;
+uniform bool  u_discard;         /* plane: only rays through the top face */
+uniform float u_depth;           /* of the relief, in the world */
+uniform float u_radius, u_ring;  /* of the hull; of the circle a torus goes along */
+uniform vec2  u_half;            /* half sides of the plane; y: half the cylinder's height */
+uniform vec2  u_repeat;          /* tiles */
+uniform float u_bound;           /* radius of a ball that holds the body */
+
+uniform bool  u_lamp;
+uniform vec3  u_light; /* the lamp's place; or the unit direction to the sun */
+uniform bool  u_shadows;
+uniform float u_shadow_slip;
+
+uniform sampler2D u_albedo;
+uniform bool  u_textured;
+uniform vec3  u_colour;
+uniform vec3  u_shares; /* ambient, diffuse, specular */
+uniform int   u_gloss;
+
+layout(location = 0) out vec4 o_light;  /* linear rgb; distance along the ray, HC_MISS: nothing */
+layout(location = 1) out vec4 o_normal; /* xyz in the world; height of the hit */
+layout(location = 2) out vec4 o_counts; /* steps, texels read, came to the hull, ran out of steps */
+
+#define PI 3.14159265358979
+#define SUN_AWAY 8.0
+
+/* Pieces of a bent ray are nowhere farther than this from it, in depths of the relief; nor shorter
+ * than on this radius. */
+#define BEND (1.0 / 512.0)
+#define RADIUS_LEAST 0.004
+
+/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field that
+ * wraps would begin. */
+#define BRINK 1e-6
+
+/* ---- angles: what atan gives is too coarse on some cards -------------------------------------- */
+
+float arctangent(float x)
+{
+    bool  turned = x > 0.4142;
+    float y      = turned ? (x - 1.0) / (x + 1.0) : x;
+    float sum    = 0.0;
+    for (int i = 8; i >= 0; i--) {
+        sum = 1.0 / float(2 * i + 1) - y * y * sum;
+    }
+    return (turned ? PI / 4.0 : 0.0) + y * sum;
+}
+
+float angle(float y, float x)
+{
+    float a = abs(x);
+    float b = abs(y);
+    if (a == 0.0 && b == 0.0) {
+        return 0.0;
+    }
+    float turn = b > a ? PI / 2.0 - arctangent(a / b) : arctangent(b / a);
+    turn       = x < 0.0 ? PI - turn : turn;
+    return y < 0.0 ? -turn : turn;
+}
+
+/* ---- bodies ----------------------------------------------------------------------------------- */
+
+/* Distance from where the hull's radius is counted: an axis, a point, a circle. */
+float from_core(vec3 point)
+{
+    float flat_ = length(point.xy) - u_ring;
+    return u_body == CYLINDER ? flat_ : length(vec2(flat_, point.z));
+}
+
+vec3 place_of(vec3 point)
+{
+    if (u_body == PLANE) {
+        return vec3(u_repeat * (0.5 + vec2(0.5, -0.5) * point.xy / u_half), 1.0 + point.z / u_depth);
+    }
+    float flat_ = length(point.xy) - u_ring;
+    float v     = 0.5 - 0.5 * point.z / u_half.y;
+    if (u_body == SPHERE) {
+        v = angle(flat_, point.z) / PI;
+    } else if (u_body == TORUS) {
+        v = 0.5 - angle(point.z, flat_) / (2.0 * PI);
+    }
+    vec2 uv = vec2(0.5 + angle(point.y, point.x) / (2.0 * PI), clamp(v, 0.0, 1.0));
+    return vec3(u_repeat * uv, 1.0 + (from_core(point) - u_radius) / u_depth);
+}
+
+/* Of all images along axes that close, the one nearest to `before`. */
+vec3 unwrapped(vec3 place, vec3 before)
+{
+    vec2 turns = floor((place.xy - before.xy) / u_repeat + 0.5);
+    turns.y    = u_body == TORUS ? turns.y : 0.0;
+    return vec3(place.xy - u_repeat * turns, place.z);
+}
+
+struct frame {
+    vec3 along_u, along_v, out_;
+    vec2 scale;
+};
+
+frame frame_at(vec3 point)
+{
+    if (u_body == PLANE) {
+        return frame(vec3(1.0, 0.0, 0.0), vec3(0.0, -1.0, 0.0), vec3(0.0, 0.0, 1.0),
+                     2.0 * u_half / u_repeat);
+    }
+    float axis = max(length(point.xy), 1e-9);
+    float core = max(from_core(point), 1e-9);
+    vec2  turn = point.xy / axis;
+    frame f    = frame(vec3(-turn.y, turn.x, 0.0), vec3(0.0, 0.0, -1.0), vec3(turn, 0.0),
+                       vec2(2.0 * PI * axis, 2.0 * u_half.y));
+    if (u_body != CYLINDER) {
+        float up    = point.z / core;
+        float flat_ = (length(point.xy) - u_ring) / core;
+        f.along_v   = vec3(up * turn, -flat_);
+        f.out_      = vec3(flat_ * turn, up);
+        f.scale.y   = (u_body == SPHERE ? 1.0 : 2.0) * PI * core;
+    }
+    f.scale /= u_repeat;
+    return f;
+}
+
+/* ---- sights: what a ray of the world comes to ------------------------------------------------- */
+
+struct sight {
+    float distance_; /* HC_MISS: nothing */
+    vec3  place;
+    vec3  cut; /* normal of the cut face it is on; zero: none */
+    int   steps;
+    bool  entered, unconverged;
+};
+
+/* The straight piece from a to b in texture space; true: a hit, at the returned share of it. */
+bool march(inout sight s, vec3 a, vec3 b, out hc_hit hit)
+{
+    hit       = hc_nearest(a, b - a, 1.0);
+    s.entered = true;
+    s.steps += hit.steps;
+    s.place       = hit.place;
+    s.unconverged = hit.t < HC_MISS && (hit.flags & HC_UNCONVERGED) != 0;
+    return hit.t < HC_MISS;
+}
+
+bool starts_in_solid(hc_hit hit)
+{
+    return hit.t == 0.0 && (hit.flags & (HC_INSIDE | HC_SIDE)) != 0;
+}
+
+void clip(inout vec2 span, inout int through, float place, float along, float low, float high,
+          int axis)
+{
+    if (along == 0.0) {
+        span.y = place >= low && place <= high ? span.y : -HC_MISS;
+        return;
+    }
+    float enters = ((along > 0.0 ? low : high) - place) / along;
+    float leaves = ((along > 0.0 ? high : low) - place) / along;
+    through      = enters > span.x ? axis : through;
+    span         = vec2(max(span.x, enters), min(span.y, leaves));
+}
+
+vec3 cut_normal(int axis, vec3 direction)
+{
+    vec3 normal  = vec3(0.0);
+    normal[axis] = direction[axis] > 0.0 ? -1.0 : 1.0;
+    return normal;
+}
+
+void across_plane(inout sight s, vec3 origin, vec3 direction)
+{
+    vec2   span    = vec2(0.0, HC_MISS);
+    int    through = -1;
+    hc_hit hit;
+    clip(span, through, origin.x, direction.x, -u_half.x, u_half.x, 0);
+    clip(span, through, origin.y, direction.y, -u_half.y, u_half.y, 1);
+    clip(span, through, origin.z, direction.z, -u_depth, 0.0, 2);
+    bool top = through == 2 && direction.z < 0.0;
+    if (span.x > span.y || (u_discard && !top)) {
+        return;
+    }
+    frame f     = frame_at(origin);
+    vec3  from  = place_of(origin + span.x * direction);
+    vec3  along = hc_to_texture(direction, f.along_u, f.along_v, f.out_, f.scale, u_depth);
+    vec3  to    = from + (span.y - span.x) * along;
+    from.xy     = clamp(from.xy, vec2(0.0), u_repeat);
+    to.xy       = clamp(to.xy, vec2(BRINK), u_repeat - BRINK);
+    if (march(s, from, to, hit)) {
+        s.distance_ = span.x + (span.y - span.x) * hit.t;
+        if (!top && through >= 0 && starts_in_solid(hit)) {
+            s.cut = cut_normal(through, direction);
+        }
+    }
+}
+
+/* docs/algorithms.md, section 21, has the bound. */
+float piece_length(vec3 point)
+{
+    float stray  = 8.0 * BEND * u_depth;
+    float radius = min(from_core(point), length(point.xy));
+    return sqrt(stray * max(radius - sqrt(stray * radius), RADIUS_LEAST));
+}
+
+void along_shell(inout sight s, vec3 origin, vec3 direction)
+{
+    float middle  = -dot(origin, direction);
+    vec3  nearest = origin + middle * direction;
+    float square  = u_bound * u_bound - dot(nearest, nearest);
+    if (square < 0.0) {
+        return;
+    }
+    vec2 span    = vec2(max(middle - sqrt(square), 0.0), middle + sqrt(square));
+    int  through = -1;
+    if (u_body == CYLINDER) {
+        clip(span, through, origin.z, direction.z, -u_half.y, u_half.y, 2);
+    }
+    float t     = span.x;
+    vec3  point = origin + t * direction;
+    vec3  here  = place_of(point);
+    bool  first = through >= 0;
+    for (int i = 0; i < 1024 && t < span.y; i++) {
+        float away  = (here.z - 1.0) * u_depth;
+        float step_ = piece_length(point);
+        float next  = min(t + max(step_, away), span.y);
+        point       = origin + next * direction;
+        vec3 there  = unwrapped(place_of(point), here);
+        if (here.z < 0.0 && !first) {
+            return; /* into the core: the method has lost its hit */
+        }
+        hc_hit hit;
+        if (away <= step_ && march(s, here, there, hit)) {
+            s.distance_ = t + (next - t) * hit.t;
+            if (first && starts_in_solid(hit)) {
+                s.cut = cut_normal(through, direction);
+            }
+            return;
+        }
+        here  = there;
+        t     = next;
+        first = false;
+    }
+}
+
+sight look(vec3 origin, vec3 direction)
+{
+    sight s = sight(HC_MISS, vec3(0.0), vec3(0.0), 0, false, false);
+    if (u_body == PLANE) {
+        across_plane(s, origin, direction);
+    } else {
+        along_shell(s, origin, direction);
+    }
+    return s;
+}
+
+/* ---- light ------------------------------------------------------------------------------------ */
+
+vec3 albedo_texel(ivec2 texel)
+{
+    ivec2 size   = textureSize(u_albedo, 0);
+    ivec2 inside = clamp(texel, ivec2(0), size - 1);
+    ivec2 folded = texel - size * ivec2(floor(vec2(texel) / vec2(size)));
+    folded += size * ivec2(lessThan(folded, ivec2(0)));
+    folded -= size * ivec2(greaterThanEqual(folded, size));
+    return texelFetch(u_albedo, ivec2(hc_wraps.x ? folded.x : inside.x,
+                                      hc_wraps.y ? folded.y : inside.y), 0).rgb;
+}
+
+vec3 albedo_at(sight s)
+{
+    if (!u_textured || dot(s.cut, s.cut) > 0.0) {
+        return u_colour;
+    }
+    vec2  place = s.place.xy * vec2(textureSize(u_albedo, 0)) - 0.5;
+    ivec2 cell  = ivec2(floor(place));
+    vec2  f     = place - vec2(cell);
+    return mix(mix(albedo_texel(cell), albedo_texel(cell + ivec2(1, 0)), f.x),
+               mix(albedo_texel(cell + ivec2(0, 1)), albedo_texel(cell + ivec2(1, 1)), f.x), f.y);
+}
+
+vec3 normal_at(sight s, vec3 point)
+{
+    frame f = frame_at(point);
+    return dot(s.cut, s.cut) > 0.0 ? s.cut
+                                   : hc_normal(hc_smooth_slopes(s.place.xy), f.along_u, f.along_v,
+                                               f.out_, f.scale, u_depth);
+}
+
+/* A ray from the light that ends before the point leaves it in shadow. */
+bool in_shadow(vec3 point, vec3 to_light, float distance_)
+{
+    return look(point + distance_ * to_light, -to_light).distance_ < distance_ - u_shadow_slip;
+}
+
+vec3 shade(sight s, vec3 normal, vec3 point, vec3 direction)
+{
+    vec3  albedo    = albedo_at(s);
+    vec3  to_light  = u_lamp ? normalize(u_light - point) : u_light;
+    float distance_ = u_lamp ? length(u_light - point) : SUN_AWAY;
+    float facing    = dot(normal, to_light);
+    float shine     = max(dot(normal, normalize(to_light - direction)), 0.0);
+    vec3  colour    = albedo * u_shares.x * (0.7 + 0.3 * normal.z);
+    for (int i = 0; i < u_gloss; i++) {
+        shine *= shine;
+    }
+    if (facing > 0.0 && !(u_shadows && in_shadow(point, to_light, distance_))) {
+        colour += albedo * u_shares.y * facing + u_shares.z * shine;
+    }
+    return colour;
+}
+
+/* ---- pixels ----------------------------------------------------------------------------------- */
+
+void main(void)
+{
+    vec2  pixel     = gl_FragCoord.xy - 0.5 + vec2(0.0, u_first_row) + u_sample;
+    vec2  place     = 2.0 * pixel / u_picture - 1.0;
+    vec3  moved     = place.x * u_right + place.y * u_down;
+    vec3  origin    = u_orthographic ? u_eye + moved : u_eye;
+    vec3  direction = u_orthographic ? u_forward : normalize(u_forward + moved);
+    sight s         = look(origin, direction);
+    vec3  point     = origin + min(s.distance_, 1e6) * direction;
+    float fetches   = float(hc_fetch_count);
+    bool  hit       = s.distance_ < HC_MISS;
+    vec3  normal    = hit ? normal_at(s, point) : vec3(0.0);
+    o_light         = vec4(hit ? shade(s, normal, point, direction) : vec3(0.0), s.distance_);
+    o_normal        = vec4(normal, s.place.z);
+    o_counts        = vec4(float(s.steps), fetches, s.entered ? 1.0 : 0.0, s.unconverged ? 1.0 : 0.0);
+    gl_FragDepth    = hit ? hc_fragment_depth(s.distance_ * dot(direction, u_forward), u_depth_range.x,
+                                              u_depth_range.y) : 1.0;
+}

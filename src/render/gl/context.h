@@ -1,0 +1,20 @@
+/* An OpenGL context without a window. */
+#ifndef HC_RENDER_GL_CONTEXT_H
+#define HC_RENDER_GL_CONTEXT_H
+
+#include <heightcast/result.h>
+
+typedef struct hc_gl_context {
+    void *display, *context; /* NULL: not there */
+} hc_gl_context;
+
+/* Make an OpenGL 4.3 core context and make it the calling thread's. HC_ERROR_UNSUPPORTED says what is
+ * missing. hc_gl_close must follow, whatever the result. */
+hc_result hc_gl_open(hc_gl_context *context, hc_log *log);
+void      hc_gl_close(hc_gl_context *context);
+
+/* What GL has to complain about since the last call: HC_OK, HC_ERROR_MEMORY, or HC_ERROR_IO if the
+ * context is lost. `what` is what was done. */
+hc_result hc_gl_check(const char *what, hc_log *log);
+
+#endif

@@ -1,0 +1,18 @@
+/* A stage's field, ratios, pyramid and colours as textures, and its numbers as uniforms. */
+#ifndef HC_RENDER_GL_LOAD_H
+#define HC_RENDER_GL_LOAD_H
+
+#include "../stage.h"
+
+enum { HC_GL_HEIGHTS = 0, HC_GL_RATIOS, HC_GL_BOUNDS, HC_GL_ALBEDO, HC_GL_TEXTURES };
+
+/* textures [out] names, by texture unit. */
+hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log);
+
+/* Number of the tracer's method in heightcast.glsl; 0: it has none. */
+int hc_gl_method(hc_trace_method method);
+
+/* Uniforms of the program in use that do not change while a picture is drawn. */
+void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method);
+
+#endif

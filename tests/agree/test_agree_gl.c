@@ -1,0 +1,270 @@
+/* The shaders against the CPU: every method on every body, shadows and all; skipped where there is no
+ * OpenGL. */
+#include <heightcast/bake.h>
+#include <heightcast/render.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 32, WIDE = 96, HIGH = 64, PIXELS = WIDE * HIGH };
+
+/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of the silhouette, of a
+ * shadow, of a cut face, between steps of a march), where float32 and double decide differently. */
+enum { ODD_MAX = PIXELS / 1000, CODES_MAX = 2 };
+
+static float heights[SIDE * SIDE], l2[SIDE * SIDE], relaxed[SIDE * SIDE];
+static float l1[SIDE * SIDE], quad[SIDE * SIDE * 4];
+
+typedef struct shot {
+    float      rgb[PIXELS * 3], depth[PIXELS];
+    uint8_t    bytes[PIXELS * 3];
+    hc_picture picture;
+} shot;
+
+static shot cpu, gl;
+
+static hc_field field_of(void)
+{
+    return (hc_field){ .heights = heights, .width = SIDE, .height = SIDE, .wrap = HC_WRAP_UV };
+}
+
+static bool bake(float *ratios, hc_cones cones, hc_method method)
+{
+    const hc_field        field   = field_of();
+    const hc_cone_options options = { .cones = cones, .method = method };
+    return hc_bake_cone_map(ratios, &field, &options, NULL) == HC_OK;
+}
+
+static int prepare(void **state)
+{
+    static float cones[SIDE * SIDE * 4];
+    (void)state;
+    bool good = hc_synth(heights, SIDE, SIDE, "cobbles", 2, NULL) == HC_OK
+                && bake(l2, HC_CONES_L2, HC_METHOD_EXACT)
+                && bake(relaxed, HC_CONES_L2, HC_METHOD_FALLING_EDGE)
+                && bake(cones, HC_CONES_L1, HC_METHOD_EXACT);
+    hc_bake_cell_ratios(l1, cones, SIDE, SIDE, HC_CONES_L1, HC_WRAP_UV);
+    good = good && bake(cones, HC_CONES_QUAD, HC_METHOD_EXACT);
+    hc_bake_cell_ratios(quad, cones, SIDE, SIDE, HC_CONES_QUAD, HC_WRAP_UV);
+    return good ? 0 : -1;
+}
+
+static hc_scene scene_of(hc_body body, hc_trace_method method)
+{
+    hc_scene          scene = { .relief = { .field = field_of(), .body = body } };
+    hc_trace_options *trace = &scene.relief.trace;
+    trace->method           = method;
+    switch (hc_trace_method_needs(method)) {
+    case HC_NEEDS_CELL_RATIOS:
+        trace->ratios = quad;
+        trace->cones  = HC_CONES_QUAD;
+        break;
+    case HC_NEEDS_RATIOS: trace->ratios = l2; break;
+    case HC_NEEDS_RELAXED: trace->ratios = relaxed; break;
+    default: break;
+    }
+    return scene;
+}
+
+static void draw(shot *s, const hc_scene *scene, hc_view view, hc_backend backend)
+{
+    const hc_render_options options = { .view = view, .backend = backend };
+    hc_log                  log     = { .text = "" };
+    s->picture = (hc_picture){ .width = WIDE, .height = HIGH, .rgb = s->rgb, .depth = s->depth };
+    const hc_result result = hc_render(&s->picture, scene, &options, &log);
+    if (result == HC_ERROR_UNSUPPORTED && backend == HC_BACKEND_GL) {
+        print_message("%s\n", log.text);
+        skip();
+    }
+    if (result != HC_OK) {
+        fail_msg("%s", log.text);
+    }
+    hc_picture_bytes(s->bytes, &s->picture);
+}
+
+static int count_odd(void)
+{
+    int odd = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        bool differs = false;
+        for (int k = 3 * i; k < 3 * i + 3; k++) {
+            differs = differs || abs(cpu.bytes[k] - gl.bytes[k]) > CODES_MAX;
+        }
+        odd += differs ? 1 : 0;
+    }
+    return odd;
+}
+
+static void compare(const hc_scene *scene, hc_view view)
+{
+    draw(&cpu, scene, view, HC_BACKEND_CPU);
+    draw(&gl, scene, view, HC_BACKEND_GL);
+    const int odd = count_odd();
+    if (odd > ODD_MAX) {
+        fail_msg("%s on %s: %d pixels differ", hc_trace_method_name(scene->relief.trace.method),
+                 hc_body_name(scene->relief.body), odd);
+    }
+    assert_true(cpu.picture.figures.hits > 500);
+}
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+static void every_method_on_every_body(void **state)
+{
+    (void)state;
+    for (int body = 0; body <= HC_BODY_TORUS; body++) {
+        for (int method = HC_TRACE_SAFE; method < hc_trace_method_count(); method++) {
+            const hc_scene scene = scene_of((hc_body)body, (hc_trace_method)method);
+            compare(&scene, HC_VIEW_SHADED);
+        }
+    }
+}
+
+static void other_choices(void **state)
+{
+    (void)state;
+    hc_scene scene            = scene_of(HC_BODY_PLANE, HC_TRACE_SAFE);
+    scene.relief.trace.ratios = l1;
+    scene.relief.trace.cones  = HC_CONES_L1;
+    compare(&scene, HC_VIEW_SHADED);
+    scene                          = scene_of(HC_BODY_PLANE, HC_TRACE_RELIEF);
+    scene.relief.trace.refinements = -1;
+    scene.relief.edge              = HC_EDGE_DISCARD;
+    scene.camera.orthographic      = 2.5F;
+    compare(&scene, HC_VIEW_SHADED);
+    scene                          = scene_of(HC_BODY_PLANE, HC_TRACE_QUICK);
+    scene.relief.trace.refinements = -2;
+    scene.relief.trace.steps       = 12;
+    scene.relief.field.wrap        = HC_WRAP_NONE;
+    scene.light.lamp               = true;
+    scene.light.place[2]           = 0.7;
+    compare(&scene, HC_VIEW_SHADED);
+    scene                           = scene_of(HC_BODY_PLANE, HC_TRACE_MAXMIP);
+    scene.relief.field.registration = HC_GRID;
+    scene.relief.field.wrap         = HC_WRAP_U;
+    scene.relief.repeat[0]          = 3;
+    scene.camera.samples            = 2;
+    compare(&scene, HC_VIEW_SHADED);
+}
+
+static void views_and_albedo(void **state)
+{
+    (void)state;
+    static float  rgb[4 * 3 * 3];
+    const hc_view views[] = { HC_VIEW_HEIGHT, HC_VIEW_NORMAL, HC_VIEW_DEPTH };
+    hc_scene      scene   = scene_of(HC_BODY_TORUS, HC_TRACE_SAFE);
+    for (int i = 0; i < 4 * 3 * 3; i++) {
+        rgb[i] = (float)(i * 7 % 11) / 11.0F;
+    }
+    scene.material.albedo        = rgb;
+    scene.material.albedo_width  = 4;
+    scene.material.albedo_height = 3;
+    compare(&scene, HC_VIEW_SHADED);
+    for (int i = 0; i < 3; i++) {
+        compare(&scene, views[i]);
+    }
+}
+
+/* ---- hits ------------------------------------------------------------------------------------ */
+
+/* Where both hit, depths agree: docs/algorithms.md, section 21.4, has the bound, which is for angles of
+ * at least 1/64 between ray and surface. Sharper ones are as rare as edges. */
+static void depths_agree(void **state)
+{
+    (void)state;
+    for (int body = 0; body <= HC_BODY_TORUS; body++) {
+        const hc_scene scene = scene_of((hc_body)body, HC_TRACE_MAXMIP);
+        int            odd = 0, both = 0;
+        draw(&cpu, &scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
+        draw(&gl, &scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+        for (int i = 0; i < PIXELS; i++) {
+            const bool hit = isfinite(cpu.depth[i]) && isfinite(gl.depth[i]);
+            both += hit ? 1 : 0;
+            odd += hit && fabsf(cpu.depth[i] - gl.depth[i]) > 0x1p-12F ? 1 : 0;
+        }
+        assert_true(both > 500);
+        assert_true(odd <= ODD_MAX);
+    }
+}
+
+/* The exact methods lose nothing there, either; two steps do. */
+static void nothing_is_lost(void **state)
+{
+    (void)state;
+    for (int body = 0; body <= HC_BODY_TORUS; body++) {
+        const hc_scene safe = scene_of((hc_body)body, HC_TRACE_SAFE);
+        draw(&gl, &safe, HC_VIEW_MISSED, HC_BACKEND_GL);
+        assert_int_equal(gl.picture.figures.lost, 0);
+        assert_int_equal(gl.picture.figures.made_up, 0);
+    }
+    hc_scene few           = scene_of(HC_BODY_SPHERE, HC_TRACE_LINEAR);
+    few.relief.trace.steps = 1;
+    draw(&gl, &few, HC_VIEW_MISSED, HC_BACKEND_GL);
+    assert_true(gl.picture.figures.lost > 20);
+}
+
+/* Golden: a change of these means that marchers step otherwise. Means over the rays of the pictures
+ * above that come near; in double precision cones lead on long after float32 has arrived. */
+static void step_counts(void **state)
+{
+    (void)state;
+    static const struct {
+        hc_trace_method method;
+        double          steps;
+    } golden[] = {
+        { HC_TRACE_SAFE, 2.5825 },    { HC_TRACE_MAXMIP, 8.0439 },     { HC_TRACE_LINEAR, 14.1876 },
+        { HC_TRACE_RELIEF, 19.4691 }, { HC_TRACE_CONE_EXACT, 2.3989 }, { HC_TRACE_ROBUST, 7.8792 },
+    };
+    for (size_t i = 0; i < sizeof golden / sizeof *golden; i++) {
+        const hc_scene scene = scene_of(HC_BODY_PLANE, golden[i].method);
+        draw(&cpu, &scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
+        if (fabs(cpu.picture.figures.mean_steps - golden[i].steps) > 5e-5) {
+            fail_msg("%s: %.4f steps", hc_trace_method_name(golden[i].method),
+                     cpu.picture.figures.mean_steps);
+        }
+    }
+    for (size_t i = 0; i < sizeof golden / sizeof *golden; i++) {
+        const hc_scene scene = scene_of(HC_BODY_PLANE, golden[i].method);
+        draw(&gl, &scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+        assert_true(fabs(gl.picture.figures.mean_steps - golden[i].steps) < 0.02);
+        assert_true(gl.picture.figures.mean_fetches >= gl.picture.figures.mean_steps);
+    }
+}
+
+/* ---- what is refused ------------------------------------------------------------------------- */
+
+static void refusals(void **state)
+{
+    (void)state;
+    static float            rgb[3 * 40000];
+    const hc_scene          fast    = scene_of(HC_BODY_PLANE, HC_TRACE_FAST);
+    const hc_scene          safe    = scene_of(HC_BODY_PLANE, HC_TRACE_SAFE);
+    const hc_render_options options = { .backend = HC_BACKEND_GL };
+    hc_log                  log     = { .text = "" };
+    hc_picture              wide    = { .width = 40000, .height = 1, .rgb = rgb };
+    assert_int_equal(hc_render(&wide, &fast, &options, &log), HC_ERROR_UNSUPPORTED);
+    draw(&gl, &safe, HC_VIEW_SHADED, HC_BACKEND_GL); /* skips */
+    assert_non_null(strstr(log.text, "fast"));
+    assert_int_equal(hc_render(&wide, &safe, &options, &log), HC_ERROR_LIMIT);
+    assert_non_null(strstr(log.text, "picture.width is 40000"));
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_on_every_body),
+        cmocka_unit_test(other_choices),
+        cmocka_unit_test(views_and_albedo),
+        cmocka_unit_test(depths_agree),
+        cmocka_unit_test(nothing_is_lost),
+        cmocka_unit_test(step_counts),
+        cmocka_unit_test(refusals),
+    };
+    return cmocka_run_group_tests_name("agree_gl", tests, prepare, NULL);
+}

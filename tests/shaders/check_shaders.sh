@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# Compile the shaders with the reference compiler: every method, both languages, both kinds of maps; and
+# see that it would complain.
+# usage: check_shaders.sh ROOT FOLDER
+set -euo pipefail
+shaders=$1/shaders
+folder=$2
+if ! command -v glslangValidator >/dev/null; then
+    echo "glslangValidator is missing"
+    exit 77
+fi
+mkdir -p "$folder"
+compiled=0
+failed=0
+
+head_of() {
+    if [ "$1" = es ]; then
+        printf '#version 300 es\nprecision highp float;\nprecision highp int;\n'
+        printf 'precision highp sampler2D;\n'
+    else
+        printf '#version 430 core\n'
+    fi
+}
+
+# check NAME STAGE: $folder/NAME compiles
+check() {
+    compiled=$((compiled + 1))
+    if ! glslangValidator -S "$2" "$folder/$1" >"$folder/log"; then
+        echo "$1:"
+        cat "$folder/log"
+        failed=$((failed + 1))
+    fi
+}
+
+# fragment NAME LANGUAGE DEFINE...
+fragment() {
+    local name=$1 language=$2 define
+    shift 2
+    {
+        head_of "$language"
+        for define in "$@"; do
+            printf '#define %s\n' "$define"
+        done
+        cat "$shaders/heightcast.glsl" "$shaders/relief.frag"
+    } >"$folder/$name"
+}
+
+for language in core es; do
+    { head_of $language && cat "$shaders/relief.vert"; } >"$folder/$language.vert"
+    check $language.vert vert
+    for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
+        RELAXED ROBUST QUICK; do
+        fragment $language-$method.frag $language "HC_METHOD HC_$method"
+        check $language-$method.frag frag
+    done
+    fragment $language-diamond.frag $language "HC_METHOD HC_SAFE" "HC_CONE_CHANNELS 1"
+    check $language-diamond.frag frag
+    for method in PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT QUICK; do
+        fragment $language-dummer-$method.frag $language "HC_METHOD HC_$method" HC_DUMMER
+        check $language-dummer-$method.frag frag
+    done
+done
+
+fragment wrong.frag core "HC_METHOD HC_SAFE" HC_DUMMER
+if glslangValidator -S frag "$folder/wrong.frag" >"$folder/log"; then
+    echo "wrong.frag compiles"
+    failed=$((failed + 1))
+fi
+echo "$compiled compilations, $failed failed"
+[ $failed -eq 0 ]
