@@ -7,12 +7,14 @@
  * hc_v_keep          a where the bit is set, 0 elsewhere
  * hc_v_about_muladd  a * b + c, fused or not: for bounds with a margin, never for results
  * hc_v_about_rsqrt   at most 1 / the square root of a >= 2^-60, and at least (1 - 2^-9) of it
+ * hc_v_about_over    at most a / b and at least (1 - 2^-9) of it; a >= 0, b > 2^-100
  * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) -
  * first,
  *                    0, 15) is the piece of a >= 0 on a scale of powers of two
  * hc_i               sixteen integers of 32 bits; shifts by 0 .. 31, to the right without the sign
  * hc_v_pick          a where the bit is set, b elsewhere; hc_i_pick likewise
  * hc_i_from_v        towards zero
+ * hc_v_gather        the word at base + 4 * index where the bit is set, anything elsewhere
  * hc_gather_pairs    two words from base + 8 * index where the bit is set, anything elsewhere;
  *                    hc_gather_neighbours the same from base + 4 * index
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
@@ -81,6 +83,11 @@ static inline hc_v hc_v_about_muladd(hc_v a, hc_v b, hc_v c)
 static inline hc_v hc_v_about_rsqrt(hc_v a)
 {
     return _mm512_mul_ps(_mm512_rsqrt14_ps(a), _mm512_set1_ps(1.0F - 0x1p-12F));
+}
+
+static inline hc_v hc_v_about_over(hc_v a, hc_v b)
+{
+    return _mm512_mul_ps(_mm512_mul_ps(a, _mm512_set1_ps(1.0F - 0x1p-12F)), _mm512_rcp14_ps(b));
 }
 
 static inline unsigned hc_v_greater(hc_v a, hc_v b)
@@ -178,6 +185,11 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
     return _mm512_permutexvar_epi32(index, _mm512_loadu_si512(table));
 }
 
+static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+{
+    return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), (__mmask16)lanes, index, base, 4);
+}
+
 static inline void hc_i_deal(hc_i *first, hc_i *second, __m512i low, __m512i high)
 {
     const __m512i even =
@@ -264,6 +276,12 @@ static inline hc_v hc_v_about_rsqrt(hc_v x)
 {
     const hc_v roots = { _mm256_rsqrt_ps(x.a), _mm256_rsqrt_ps(x.b) };
     return hc_v_mul(roots, hc_v_set(1.0F - 0x1p-10F));
+}
+
+static inline hc_v hc_v_about_over(hc_v x, hc_v y)
+{
+    const hc_v inverse = { _mm256_rcp_ps(y.a), _mm256_rcp_ps(y.b) };
+    return hc_v_mul(hc_v_mul(x, hc_v_set(1.0F - 0x1p-10F)), inverse);
 }
 
 static inline unsigned hc_v_greater(hc_v x, hc_v y)
@@ -407,6 +425,14 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
                    _mm256_i32gather_epi32(table, index.b, 4) };
 }
 
+static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+{
+    const __m256 low  = _mm256_castsi256_ps(hc_i_mask8(lanes));
+    const __m256 high = _mm256_castsi256_ps(hc_i_mask8(lanes >> 8));
+    return (hc_v){ _mm256_mask_i32gather_ps(_mm256_setzero_ps(), base, index.a, low, 4),
+                   _mm256_mask_i32gather_ps(_mm256_setzero_ps(), base, index.b, high, 4) };
+}
+
 static inline __m256i hc_i_deal8(__m256i low, __m256i high, int odd)
 {
     const __m256i order = odd != 0 ? _mm256_setr_epi32(1, 3, 5, 7, 1, 3, 5, 7)
@@ -478,6 +504,7 @@ HC_V_QUARTERS(hc_v_min, (hc_v a, hc_v b), hc_choose(a.q[i] < b.q[i], a.q[i], b.q
 HC_V_QUARTERS(hc_v_about_muladd, (hc_v a, hc_v b, hc_v c), a.q[i] * b.q[i] + c.q[i])
 HC_V_QUARTERS(hc_v_sqrt, (hc_v a), hc_sqrt4(a.q[i]))
 HC_V_QUARTERS(hc_v_about_rsqrt, (hc_v a), (1.0F - 0x1p-12F) / hc_sqrt4(a.q[i]))
+HC_V_QUARTERS(hc_v_about_over, (hc_v a, hc_v b), a.q[i] * (1.0F - 0x1p-12F) / b.q[i])
 HC_V_QUARTERS(hc_v_abs, (hc_v a), (hc_quarter)((hc_quarter_bits)a.q[i] & INT32_MAX))
 HC_V_QUARTERS(hc_v_set, (float a), ((hc_quarter){ a, a, a, a }))
 
@@ -604,6 +631,15 @@ static inline hc_v hc_v_of_bits(hc_i a)
     return r;
 }
 
+static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+{
+    float found[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        found[i] = (lanes >> i & 1) != 0 ? base[index.lane[i]] : 0.0F;
+    }
+    return hc_v_load(found);
+}
+
 static inline hc_v hc_v_pick(unsigned lanes, hc_v a, hc_v b)
 {
     hc_i first, second;
@@ -639,6 +675,20 @@ HC_I_GATHER(hc_gather_pairs, 8)
 HC_I_GATHER(hc_gather_neighbours, 4)
 
 #endif
+
+static inline hc_i hc_v_bits(hc_v a)
+{
+    hc_i bits;
+    memcpy(&bits, &a, sizeof bits);
+    return bits;
+}
+
+static inline hc_v hc_v_lookup(const float *table, hc_i index)
+{
+    int32_t bits[HC_LANES];
+    memcpy(bits, table, sizeof bits);
+    return hc_v_of_bits(hc_i_lookup(bits, index));
+}
 
 /* At most the square root of a >= 0, and at least (1 - 2^-9) of it. */
 static inline hc_v hc_v_about_sqrt(hc_v a)

@@ -19,6 +19,12 @@
  * reach across it. */
 enum { COARSEST = 6, PAGE = 1 << 21 };
 
+/* Blocks that a step must have crossed for the next one to try the coarser level. */
+static const float RISE = 2.0F;
+
+/* Rays begin on this level. */
+enum { FIRST_LEVEL = 1 };
+
 typedef struct layout {
     size_t heights, blocks; /* elements */
 } layout;
@@ -61,6 +67,12 @@ static void set_axes(hc_fast *fast, const hc_field *field, const hc_trace_option
     fast->shift_z             = place->scale_z > 0.0 ? -place->offset[2] / place->scale_z : 0.0;
 }
 
+/* Rows, filled up to those that stand together. */
+static size_t rows_of(int rows, int bits)
+{
+    return (size_t)((rows + (1 << bits) - 1) >> bits) << bits;
+}
+
 /* Everything but the memory. */
 static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
 {
@@ -72,20 +84,20 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     int       width  = 1;
     do {
         const int k     = fast->levels++;
-        width           = 1 << (HC_FAST_RATIO_BITS * k);
-        const int wide  = (fast->x.cells + width - 1) / width;
-        const int high  = (fast->y.cells + width - 1) / width;
+        width           = 1 << (HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * k);
+        const int wide  = (fast->x.cells + width - 1) / width + 1;
+        const int high  = (fast->y.cells + width - 1) / width + 1;
         fast->stride[k] = wide;
         fast->start[k]  = (int32_t)blocks;
-        blocks += (size_t)wide * (size_t)high;
+        fast->rise[k]   = RISE * (float)width;
+        blocks += (size_t)wide * rows_of(high, HC_FAST_BLOCK_BITS);
     } while ((side + width - 1) / width > COARSEST);
-    fast->first_level    = fast->levels > 2 ? 2 : fast->levels - 1;
-    fast->mirror_x       = (fast->x.cells + width - 1) / width * width;
-    fast->mirror_y       = (fast->y.cells + width - 1) / width * width;
-    const int mirror     = fast->mirror_x > fast->mirror_y ? fast->mirror_x : fast->mirror_y;
-    fast->blur           = 0x1p-21F * (float)mirror;
-    fast->stride_heights = fast->x.cells + 1;
-    return (layout){ (size_t)fast->stride_heights * (size_t)(fast->y.cells + 1) + 1, blocks };
+    fast->rise[fast->levels - 1] = INFINITY;
+    fast->first_level            = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
+    fast->blur                   = 0x1p-21F * (float)side;
+    fast->stride_heights         = fast->x.cells + 1;
+    return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
+                     blocks };
 }
 
 static size_t pages(size_t bytes)

@@ -9,10 +9,11 @@
 #include "base/fail.h"
 #include "base/parallel.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DIAGONALS = 10, TILE = 64, RATIO = 1 << HC_FAST_RATIO_BITS };
+enum { DIAGONALS = 10, TILE = 64, BASE = 1 << HC_FAST_BASE_BITS, RATIO = 1 << HC_FAST_RATIO_BITS };
 
 /* Least height that marching keeps above a block: more than its rounding [height]. */
 static const float CLEARANCE = 0x1p-20F;
@@ -32,6 +33,7 @@ typedef struct builder {
     const float   *heights; /* of the field */
     int            field_width;
     level          levels[HC_FAST_LEVELS];
+    float         *steepest; /* of each row of cells: largest difference of neighbouring samples */
     int            current;
 } builder;
 
@@ -51,27 +53,40 @@ static int sample_of(const hc_fast_axis *axis, int corner)
 
 static void copy_heights(void *context, int y, int worker)
 {
-    const builder *b    = context;
-    const hc_fast *fast = b->fast;
-    const float   *from = b->heights + (size_t)sample_of(&fast->y, y) * (size_t)b->field_width;
-    float         *to   = fast->heights + (size_t)y * (size_t)fast->stride_heights;
+    const builder *b       = context;
+    const hc_fast *fast    = b->fast;
+    const size_t   width   = (size_t)b->field_width;
+    const float   *from    = b->heights + (size_t)sample_of(&fast->y, y) * width;
+    const float   *below   = b->heights + (size_t)sample_of(&fast->y, y + 1) * width;
+    float         *to      = fast->heights + hc_fast_corner(fast, 0, y);
+    float          largest = 0.0F;
     (void)worker;
     for (int x = 0; x <= fast->x.cells; x++) {
-        to[x] = from[sample_of(&fast->x, x)];
+        const int i                  = sample_of(&fast->x, x);
+        const int next               = sample_of(&fast->x, x + 1);
+        to[x << HC_FAST_HEIGHT_BITS] = from[i];
+        largest = larger(largest, larger(fabsf(below[i] - from[i]), fabsf(from[next] - from[i])));
     }
+    b->steepest[y] = largest;
 }
 
+/* Tops of blocks of the finest level, from their cells' corners; on steps, from their samples. */
 static void top_cells(void *context, int y, int worker)
 {
     const builder *b     = context;
     const hc_fast *fast  = b->fast;
-    const float   *upper = fast->heights + (size_t)y * (size_t)fast->stride_heights;
-    const float   *lower = fast->steps ? upper : upper + fast->stride_heights;
     const int      side  = fast->steps ? 0 : 1;
+    const int      above = y * BASE;
+    const int      last  = above + BASE < fast->y.cells ? above + BASE : fast->y.cells;
     float         *tops  = b->levels[0].tops + (size_t)y * b->levels[0].pitch;
     (void)worker;
-    for (int x = 0; x < fast->x.cells; x++) {
-        tops[x] = larger(larger(upper[x], upper[x + side]), larger(lower[x], lower[x + side]));
+    for (int j = above; j < last + side; j++) {
+        const float *row = fast->heights + hc_fast_corner(fast, 0, j);
+        for (int x = 0; x < fast->x.cells; x++) {
+            const float left  = row[x << HC_FAST_HEIGHT_BITS];
+            const float right = row[(x + side) << HC_FAST_HEIGHT_BITS];
+            tops[x / BASE]    = larger(tops[x / BASE], larger(left, right));
+        }
     }
 }
 
@@ -192,6 +207,11 @@ static uint8_t encode(float slope)
     return (uint8_t)(code > 255 ? 255 : code);
 }
 
+static uint8_t slope_of(const builder *b, int k, int x, int y, int quadrant)
+{
+    return b->levels[k].blocks[hc_fast_block_at(b->fast, k, x, y)].slopes[quadrant];
+}
+
 /* Steepest of the blocks one level below that stand at the two sides facing the quadrant. */
 static float child_slope(const builder *b, int k, int x, int y, int quadrant)
 {
@@ -202,27 +222,25 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
     const int    edge_y = (quadrant & 2) != 0 ? y * RATIO : below - 1;
     uint8_t      code   = 0;
     for (int i = x * RATIO; i < right; i++) {
-        const uint8_t c =
-            fine->blocks[(size_t)edge_y * (size_t)fine->width + (size_t)i].slopes[quadrant];
-        code = c > code ? c : code;
+        const uint8_t c = slope_of(b, k - 1, i, edge_y, quadrant);
+        code            = c > code ? c : code;
     }
     for (int j = y * RATIO; j < below; j++) {
-        const uint8_t c =
-            fine->blocks[(size_t)j * (size_t)fine->width + (size_t)edge_x].slopes[quadrant];
-        code = c > code ? c : code;
+        const uint8_t c = slope_of(b, k - 1, edge_x, j, quadrant);
+        code            = c > code ? c : code;
     }
     return decode(code);
 }
 
-/* A ray may be up to two blurs from where it is marched: what stands there is seen with this weight
+/* A ray may be up to three blurs from where it is marched: what stands there is seen with this weight
  * from any quadrant. */
 static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4])
 {
     const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
     const float blur     = b->fast->blur;
-    block->top           = top + 4.0F * blur * steepest + CLEARANCE;
+    block->top           = top + 6.0F * blur * steepest + CLEARANCE;
     for (int q = 0; q < 4; q++) {
-        block->slopes[q] = encode(slopes[q] + 2.0F * blur * steepest);
+        block->slopes[q] = encode(slopes[q] + 3.0F * blur * steepest);
     }
 }
 
@@ -232,6 +250,7 @@ static void block_row(void *context, int y, int worker)
     const int      k               = b->current;
     const level   *l               = &b->levels[k];
     float          slopes[4][TILE] = { { 0.0F } };
+    hc_fast_block *row             = l->blocks + hc_fast_block_at(b->fast, k, 0, y);
     (void)worker;
     for (int x = 0; x < l->width; x += TILE) {
         const float *tops  = l->tops + (size_t)y * l->pitch + x;
@@ -248,8 +267,14 @@ static void block_row(void *context, int y, int worker)
                 const float child = k == 0 ? slopes[q][i] : child_slope(b, k, x + i, y, q);
                 slope[q]          = child < slopes[q][i] ? child : slopes[q][i];
             }
-            store_block(b, &l->blocks[(size_t)y * (size_t)l->width + (size_t)(x + i)], tops[i],
-                        slope);
+            store_block(b, &row[(x + i) << HC_FAST_BLOCK_BITS], tops[i], slope);
+        }
+    }
+    row[l->width << HC_FAST_BLOCK_BITS] = row[(l->width - 1) << HC_FAST_BLOCK_BITS];
+    if (y == l->height - 1) {
+        hc_fast_block *more = l->blocks + hc_fast_block_at(b->fast, k, 0, y + 1);
+        for (int x = 0; x <= l->width; x++) {
+            more[x << HC_FAST_BLOCK_BITS] = row[x << HC_FAST_BLOCK_BITS];
         }
     }
 }
@@ -265,7 +290,7 @@ static void fill(builder *b, int threads, hc_log *log)
 {
     const int levels = b->fast->levels;
     (void)run(b, 0, copy_heights, b->fast->y.cells + 1, threads, log);
-    (void)run(b, 0, top_cells, b->fast->y.cells, threads, log);
+    (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     for (int k = 1; k < levels; k++) {
         (void)run(b, k, top_blocks, b->levels[k].height, threads, log);
     }
@@ -279,7 +304,7 @@ static void fill(builder *b, int threads, hc_log *log)
 
 static bool take_level(level *l, const hc_fast *fast, int k)
 {
-    const int side = 1 << (HC_FAST_RATIO_BITS * k);
+    const int side = 1 << (HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * k);
     l->side        = side;
     l->width       = (fast->x.cells + side - 1) / side;
     l->height      = (fast->y.cells + side - 1) / side;
@@ -298,17 +323,27 @@ static bool take_level(level *l, const hc_fast *fast, int k)
 
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log)
 {
-    builder b     = { .fast = fast, .heights = field->heights, .field_width = field->width };
-    bool    taken = true;
+    const int rows  = fast->y.cells + 1;
+    builder   b     = { .fast        = fast,
+                        .heights     = field->heights,
+                        .field_width = field->width,
+                        .steepest    = malloc((size_t)rows * sizeof(float)) };
+    bool      taken = b.steepest != NULL;
     for (int k = 0; k < fast->levels; k++) {
         taken = take_level(&b.levels[k], fast, k) && taken;
     }
     if (taken) {
         fill(&b, threads, log);
+        float steepest = 0.0F;
+        for (int y = 0; y < rows; y++) {
+            steepest = larger(steepest, b.steepest[y]);
+        }
+        fast->slack = 6.0F * fast->blur * steepest + CLEARANCE;
     }
     for (int k = 0; k < fast->levels; k++) {
         free(b.levels[k].frame);
         free(b.levels[k].far);
     }
+    free(b.steepest);
     return taken ? HC_OK : hc_fail(log, HC_ERROR_MEMORY, "no memory for building a caster");
 }

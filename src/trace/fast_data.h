@@ -8,11 +8,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/* Blocks of level k are 4^k cells wide: 4^10 is the widest field. */
-enum { HC_FAST_LEVELS = 11, HC_FAST_RATIO_BITS = 2 };
+/* Blocks of level k are 2 * 4^k cells wide: 2^20 is the widest field. */
+enum { HC_FAST_LEVELS = 10, HC_FAST_RATIO_BITS = 2, HC_FAST_BASE_BITS = 1 };
 
 /* Slopes are floats of five bits exponent and three bits mantissa, from 2^-30 to 3.75. */
 enum { HC_FAST_SLOPE_SHIFT = 20, HC_FAST_SLOPE_BIAS = 97 << 23 };
+
+/* Rows stand together, value by value, so that a cache line is a square: four rows of heights, two of
+ * blocks. */
+enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 1 };
 
 /* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,
  * -u +v, +u -v, -u -v), within which the surface beyond the block stays below a cone around it. */
@@ -40,12 +44,30 @@ struct hc_fast {
     hc_isa         isa;
     int            levels, first_level;   /* where marching begins */
     int32_t        stride[16], start[16]; /* of the levels' blocks; 16 for one vector register  */
-    int32_t        mirror_x, mirror_y;    /* width of the padded grid                           */
-    float          blur;                  /* [cells] by which marching may misplace a ray       */
+    float          rise[16]; /* longer steps, in cells, are followed by one on the next level   */
+    float          blur;     /* [cells] by which marching may misplace a ray                    */
+    float          slack;    /* [height] by which the surface may rise on thrice that way       */
     int            stride_heights;
-    float         *heights; /* (x.cells + 1) * (y.cells + 1) corners                            */
-    hc_fast_block *blocks;  /* all levels, the finest first                                     */
+    float         *heights; /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner            */
+    hc_fast_block *blocks;  /* all levels, the finest first; each has one more at the ends of its
+                               rows, and one more row: rays at an edge may be put beyond it.
+                               hc_fast_block_at                                                 */
 };
+
+/* Where the height of a corner stands; where a block does, from the start of its level. */
+static inline size_t hc_fast_corner(const hc_fast *fast, int x, int y)
+{
+    return (((size_t)(y >> HC_FAST_HEIGHT_BITS) * (size_t)fast->stride_heights + (size_t)x)
+            << HC_FAST_HEIGHT_BITS)
+           + (size_t)(y & ((1 << HC_FAST_HEIGHT_BITS) - 1));
+}
+
+static inline size_t hc_fast_block_at(const hc_fast *fast, int level, int x, int y)
+{
+    return (((size_t)(y >> HC_FAST_BLOCK_BITS) * (size_t)fast->stride[level] + (size_t)x)
+            << HC_FAST_BLOCK_BITS)
+           + (size_t)(y & ((1 << HC_FAST_BLOCK_BITS) - 1));
+}
 
 /* A ray in cell coordinates, cut to where it can hit. Double: what comes out of it does not depend
  * on how the marching found the place. */

@@ -43,12 +43,13 @@ static inline patch patch_at(const hc_fast *fast, double cell_x, double cell_y)
 {
     const int    i     = wrap_index(cell_x, &fast->x);
     const int    j     = wrap_index(cell_y, &fast->y);
-    const float *upper = fast->heights + (size_t)j * (size_t)fast->stride_heights + (size_t)i;
-    const float *lower = upper + fast->stride_heights;
+    const float *upper = fast->heights + hc_fast_corner(fast, i, j);
+    const float *lower = fast->heights + hc_fast_corner(fast, i, j + 1);
     if (fast->steps) {
-        return (patch){ (double)upper[0], (double)upper[0], (double)upper[0], (double)upper[0] };
+        return (patch){ (double)*upper, (double)*upper, (double)*upper, (double)*upper };
     }
-    return (patch){ (double)upper[0], (double)upper[1], (double)lower[0], (double)lower[1] };
+    const size_t right = (size_t)1 << HC_FAST_HEIGHT_BITS;
+    return (patch){ (double)*upper, (double)upper[right], (double)*lower, (double)lower[right] };
 }
 
 /* The ray's height above the patch, as a quadratic a s^2 + b s + c of the time s after t. */
@@ -56,33 +57,35 @@ typedef struct quadratic {
     double a, b, c;
 } quadratic;
 
-static inline quadratic gap_over(const hc_fast_ray *r, const patch *p, double cell_x, double cell_y,
-                                 double t)
+/* For a ray at (x, y, z), in the patch's coordinates. */
+static inline quadratic gap_on(const patch *p, double x, double y, double z, double dx, double dy,
+                               double dz)
 {
-    const double x      = r->origin[0] + t * r->direction[0] - cell_x;
-    const double y      = r->origin[1] + t * r->direction[1] - cell_y;
-    const double z      = r->origin[2] + t * r->direction[2];
     const double along  = p->h10 - p->h00;
     const double across = p->h01 - p->h00;
     const double twist  = p->h11 - p->h10 - across;
-    const double dx     = r->direction[0];
-    const double dy     = r->direction[1];
-    return (quadratic){ -twist * dx * dy,
-                        r->direction[2] - along * dx - across * dy - twist * (x * dy + y * dx),
+    return (quadratic){ -twist * dx * dy, dz - along * dx - across * dy - twist * (x * dy + y * dx),
                         z - (p->h00 + along * x + across * y + twist * x * y) };
+}
+
+static inline quadratic gap_over(const hc_fast_ray *r, const patch *p, double cell_x, double cell_y,
+                                 double t)
+{
+    return gap_on(p, r->origin[0] + t * r->direction[0] - cell_x,
+                  r->origin[1] + t * r->direction[1] - cell_y, r->origin[2] + t * r->direction[2],
+                  r->direction[0], r->direction[1], r->direction[2]);
 }
 
 /* The first s > 0 where the quadratic comes down to 0 from c >= 0; INFINITY if it never does. Both
  * forms add what has one sign: the other root may be next to 0, where a ray has just come out of the
- * ground. */
+ * ground. Without a real root, `root` and `under` are NaN. */
 static inline double first_root(quadratic q)
 {
-    const double disc = q.b * q.b - 4.0 * q.a * q.c;
-    if (q.b > 0.0) {
-        return q.a < 0.0 ? (q.b + sqrt(disc)) / (-2.0 * q.a) : INFINITY;
-    }
-    const double den = disc >= 0.0 ? sqrt(disc) - q.b : 0.0;
-    return den > 0.0 ? 2.0 * q.c / den : INFINITY;
+    const double root  = sqrt(q.b * q.b - 4.0 * q.a * q.c);
+    const bool   up    = q.b > 0.0;
+    const double over  = up ? q.b + root : 2.0 * q.c;
+    const double under = up ? -2.0 * q.a : root - q.b;
+    return under > 0.0 ? over / under : INFINITY;
 }
 
 typedef struct cursor {

@@ -1,0 +1,122 @@
+/* Lanes in memory, beside the arithmetic of simd.h: sixteen values of one kind stand in a row, and
+ * move densely to and from the lanes whose bit is set. Values of four bytes are words, of any type.
+ *
+ * hc_pack_words      to[k] = lanes[i] for the k-th set bit i; may write HC_LANES values in any
+ *                    case
+ * hc_spread_words    lanes[i] = from[k] for the k-th set bit i
+ * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
+ * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i] */
+#ifndef HC_BASE_LANES_H
+#define HC_BASE_LANES_H
+
+#include "simd.h"
+
+enum { HC_ROW_WORDS = 8 };
+
+#if defined(HC_SIMD_AVX512)
+
+static inline void hc_pack_words(void *to, unsigned lanes, const void *from)
+{
+    const __m512i all = _mm512_loadu_si512(from);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32((__mmask16)lanes, all));
+}
+
+static inline void hc_spread_words(void *lanes, unsigned set, const void *from)
+{
+    const __m512i old = _mm512_loadu_si512(lanes);
+    _mm512_storeu_si512(lanes, _mm512_mask_expandloadu_epi32(old, (__mmask16)set, from));
+}
+
+static inline void hc_pack_doubles(double *to, unsigned lanes, const double *from)
+{
+    const __m512i low  = _mm512_loadu_si512(from);
+    const __m512i high = _mm512_loadu_si512(from + 8);
+    const int     n    = __builtin_popcount(lanes & 255);
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi64((__mmask8)lanes, low));
+    _mm512_storeu_si512(to + n, _mm512_maskz_compress_epi64((__mmask8)(lanes >> 8), high));
+}
+
+static inline void hc_spread_doubles(double *lanes, unsigned set, const double *from)
+{
+    const __m512i low  = _mm512_loadu_si512(lanes);
+    const __m512i high = _mm512_loadu_si512(lanes + 8);
+    const int     n    = __builtin_popcount(set & 255);
+    _mm512_storeu_si512(lanes, _mm512_mask_expandloadu_epi64(low, (__mmask8)set, from));
+    _mm512_storeu_si512(lanes + 8,
+                        _mm512_mask_expandloadu_epi64(high, (__mmask8)(set >> 8), from + n));
+}
+
+/* Two rows in one register. */
+static inline __m512 hc_two_rows(const float *base, int32_t first, int32_t second)
+{
+    const __m256 low  = _mm256_loadu_ps(base + (ptrdiff_t)first * HC_ROW_WORDS);
+    const __m256 high = _mm256_loadu_ps(base + (ptrdiff_t)second * HC_ROW_WORDS);
+    return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
+}
+
+/* Words k and k + 4 of eight rows, for k = 0 .. 3: rows 0 to 3 in the first and third quarter of a
+ * register where they are words k, in the others where they are words k + 4. */
+static inline void hc_turn_rows(__m512 out[4], const float *base, const int32_t *rows)
+{
+    const __m512 a = hc_two_rows(base, rows[0], rows[4]);
+    const __m512 b = hc_two_rows(base, rows[1], rows[5]);
+    const __m512 c = hc_two_rows(base, rows[2], rows[6]);
+    const __m512 d = hc_two_rows(base, rows[3], rows[7]);
+    const __m512 e = _mm512_unpacklo_ps(a, b);
+    const __m512 f = _mm512_unpackhi_ps(a, b);
+    const __m512 g = _mm512_unpacklo_ps(c, d);
+    const __m512 h = _mm512_unpackhi_ps(c, d);
+    out[0]         = _mm512_shuffle_ps(e, g, 0x44);
+    out[1]         = _mm512_shuffle_ps(e, g, 0xee);
+    out[2]         = _mm512_shuffle_ps(f, h, 0x44);
+    out[3]         = _mm512_shuffle_ps(f, h, 0xee);
+}
+
+static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void *base,
+                              const int32_t *rows)
+{
+    __m512 low[4];
+    __m512 high[4];
+    hc_turn_rows(low, base, rows);
+    hc_turn_rows(high, base, rows + 8);
+    for (int k = 0; k < 4; k++) {
+        _mm512_storeu_ps(columns[k], _mm512_shuffle_f32x4(low[k], high[k], 0x88));
+        _mm512_storeu_ps(columns[k + 4], _mm512_shuffle_f32x4(low[k], high[k], 0xdd));
+    }
+}
+
+#else
+
+#define HC_MOVE_LANES(pack, spread, type, size)                                                    \
+    static inline void pack(type *to, unsigned lanes, const type *from)                            \
+    {                                                                                              \
+        for (size_t k = 0; lanes != 0; lanes &= lanes - 1, k++) {                                  \
+            memcpy((char *)to + (size)*k,                                                          \
+                   (const char *)from + (size) * (size_t)__builtin_ctz(lanes), (size));            \
+        }                                                                                          \
+    }                                                                                              \
+    static inline void spread(type *lanes, unsigned set, const type *from)                         \
+    {                                                                                              \
+        for (size_t k = 0; set != 0; set &= set - 1, k++) {                                        \
+            memcpy((char *)lanes + (size) * (size_t)__builtin_ctz(set),                            \
+                   (const char *)from + (size)*k, (size));                                         \
+        }                                                                                          \
+    }
+HC_MOVE_LANES(hc_pack_words, hc_spread_words, void, 4)
+HC_MOVE_LANES(hc_pack_doubles, hc_spread_doubles, double, 8)
+
+static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void *base,
+                              const int32_t *rows)
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        float row[HC_ROW_WORDS];
+        memcpy(row, (const char *)base + (ptrdiff_t)rows[i] * (ptrdiff_t)sizeof row, sizeof row);
+        for (int k = 0; k < HC_ROW_WORDS; k++) {
+            columns[k][i] = row[k];
+        }
+    }
+}
+
+#endif
+
+#endif

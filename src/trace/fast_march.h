@@ -1,0 +1,233 @@
+/* Sixteen rays in lanes, each at its own block on its own level.
+ *
+ * A lane counts s, the cells gone sideways (|du| + |dv|), so that a slope times s is a rise. On its
+ * block it sees whether it stays above the top until it leaves; then it goes on to where the cone
+ * around the block, from there on, would let it down, and otherwise one level deeper. On single
+ * cells the patch is looked at; what that leaves in doubt is decided in double precision.
+ *
+ * Everything here is float and only has to err on the safe side: fast_build.c has raised tops and
+ * slopes by what rounding can misplace. */
+#ifndef HC_TRACE_FAST_MARCH_H
+#define HC_TRACE_FAST_MARCH_H
+
+#include "base/lanes.h"
+#include "fast_data.h"
+
+/* What a ray brings into a lane; words all. */
+typedef struct runners {
+    float   x[HC_LANES], y[HC_LANES], z[HC_LANES];    /* where the segment starts             */
+    float   dx[HC_LANES], dy[HC_LANES], dz[HC_LANES]; /* per s; |dx| + |dy| = 1               */
+    float   rx[HC_LANES], ry[HC_LANES];               /* 1 / dx, 1 / dy                       */
+    float   end[HC_LANES];                            /* s                                    */
+    int32_t ahead_x[HC_LANES], ahead_y[HC_LANES];     /* 1: the ray goes up along the axis    */
+    int32_t quadrant[HC_LANES];                       /* bits to shift a slope down           */
+    int32_t which[HC_LANES];                          /* of the rays                          */
+    int32_t steps[HC_LANES], crossings[HC_LANES];
+} runners;
+
+/* After a step of 2 * 4^k cells and more comes level k: half the exponent, less this. */
+enum { LEVEL_BIAS = 64 };
+
+enum { RUNNER_WORDS = sizeof(runners) / (HC_LANES * sizeof(int32_t)) };
+
+typedef struct pack {
+    runners  ray;
+    double   from[HC_LANES], next[HC_LANES]; /* t at the segment's start and end */
+    float    s[HC_LANES];
+    float    until[HC_LANES]; /* s at which a near lane leaves its block */
+    int32_t  level[HC_LANES];
+    unsigned active, near,
+        held; /* lanes with a ray; of them, waiting on a cell to be looked at, and
+                                    to be decided                                                 */
+} pack;
+
+typedef struct place {
+    hc_v s, x, y, z;
+    hc_i cell_x, cell_y;
+} place;
+
+static inline place find_place(const pack *p)
+{
+    place at;
+    at.s      = hc_v_load(p->s);
+    at.x      = hc_v_about_muladd(at.s, hc_v_load(p->ray.dx), hc_v_load(p->ray.x));
+    at.y      = hc_v_about_muladd(at.s, hc_v_load(p->ray.dy), hc_v_load(p->ray.y));
+    at.z      = hc_v_about_muladd(at.s, hc_v_load(p->ray.dz), hc_v_load(p->ray.z));
+    at.cell_x = hc_i_from_v(at.x);
+    at.cell_y = hc_i_from_v(at.y);
+    return at;
+}
+
+/* s to the wall behind the block. */
+static inline hc_v to_wall(hc_v x, hc_i block, hc_i shift, const int32_t *ahead,
+                           const float *reciprocal)
+{
+    const hc_i wall = hc_i_left(hc_i_add(block, hc_i_load(ahead)), shift);
+    return hc_v_mul(hc_v_sub(hc_v_from_i(wall), x), hc_v_load(reciprocal));
+}
+
+/* s until the block is left, and a little more: no lane stands still. */
+static inline hc_v to_leave(const hc_fast *fast, const pack *p, const place *at, hc_i block_x,
+                            hc_i block_y, hc_i shift)
+{
+    const hc_v wall_x = to_wall(at->x, block_x, shift, p->ray.ahead_x, p->ray.rx);
+    const hc_v wall_y = to_wall(at->y, block_y, shift, p->ray.ahead_y, p->ray.ry);
+    const hc_v wall   = hc_v_max(hc_v_min(wall_x, wall_y), hc_v_set(0.0F));
+    return hc_v_add(wall, hc_v_set(fast->blur));
+}
+
+/* How far a lane has come into its block along one axis. */
+static inline hc_v come_in(hc_v x, hc_i block, hc_i shift, const int32_t *ahead)
+{
+    const hc_i ahead_of = hc_i_load(ahead);
+    const hc_i wall     = hc_i_left(hc_i_add(block, hc_i_xor(ahead_of, hc_i_set(1))), shift);
+    return hc_v_abs(hc_v_sub(x, hc_v_from_i(wall)));
+}
+
+/* Lanes so near to a wall that they run along it, or cut a corner, that rounding may have put them
+ * on the wrong side. It matters on steps alone, which jump there: blocks of patches are raised. */
+static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const place *at,
+                                   hc_i block_x, hc_i block_y, hc_i shift, hc_v out)
+{
+    const hc_v     close   = hc_v_set(6.0F * fast->blur);
+    const hc_v     side    = hc_v_from_i(hc_i_left(hc_i_set(1), shift));
+    const hc_v     low_x   = come_in(at->x, block_x, shift, p->ray.ahead_x);
+    const hc_v     low_y   = come_in(at->y, block_y, shift, p->ray.ahead_y);
+    const hc_v     end_x   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dx)), low_x);
+    const hc_v     end_y   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dy)), low_y);
+    const hc_v     far     = hc_v_sub(side, close);
+    const unsigned from_x  = hc_v_greater(close, low_x);
+    const unsigned from_y  = hc_v_greater(close, low_y);
+    const unsigned start   = ~hc_v_greater(at->s, hc_v_set(0.0F));
+    const unsigned over_x  = hc_v_greater(end_x, far);
+    const unsigned over_y  = hc_v_greater(end_y, far);
+    const unsigned along_x = hc_v_greater(close, end_x);
+    const unsigned along_y = hc_v_greater(close, end_y);
+    return (from_x & from_y) | (start & (from_x | from_y)) | (over_x & (over_y | along_y))
+           | (over_y & along_x);
+}
+
+/* hc_fast_corner, hc_fast_block_at */
+static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
+{
+    const hc_i row  = hc_i_mul(hc_i_right(y, hc_i_set(bits)), stride);
+    const hc_i rest = hc_i_and(y, hc_i_set((1 << bits) - 1));
+    return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
+}
+
+/* One block further, or one level deeper, for the lanes in `active`. Those that stand on a single
+ * cell and may hit it do not move, and become `near`. */
+static inline void march(const hc_fast *fast, pack *p, unsigned active, bool steps)
+{
+    const place at      = find_place(p);
+    const hc_i  level   = hc_i_load(p->level);
+    const hc_i  shift   = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
+    const hc_i  block_x = hc_i_right(at.cell_x, shift);
+    const hc_i  block_y = hc_i_right(at.cell_y, shift);
+    const hc_v  out     = to_leave(fast, p, &at, block_x, block_y, shift);
+    const hc_i  index =
+        hc_i_add(index_of(block_x, block_y, hc_i_lookup(fast->stride, level), HC_FAST_BLOCK_BITS),
+                 hc_i_lookup(fast->start, level));
+    hc_i top_bits, codes;
+    hc_gather_pairs(&top_bits, &codes, fast->blocks, index, active);
+    const hc_i code  = hc_i_and(hc_i_right(codes, hc_i_load(p->ray.quadrant)), hc_i_set(255));
+    const hc_v slope = hc_v_of_bits(
+        hc_i_add(hc_i_left(code, hc_i_set(HC_FAST_SLOPE_SHIFT)), hc_i_set(HC_FAST_SLOPE_BIAS)));
+    const hc_v top   = hc_v_of_bits(top_bits);
+    const hc_v dz    = hc_v_load(p->ray.dz);
+    const hc_v leave = hc_v_about_muladd(out, dz, at.z);
+
+    const unsigned unsure = steps ? find_unsure(fast, p, &at, block_x, block_y, shift, out) : 0;
+    const unsigned clear  = hc_v_greater(hc_v_min(at.z, leave), top) & active & ~unsure;
+    const hc_v     fall  = hc_v_max(hc_v_sub(slope, dz), hc_v_set(0x1p-60F)); /* towards the cone */
+    const hc_v     cone  = steps ? hc_v_set(0.0F) : hc_v_about_over(hc_v_sub(leave, top), fall);
+    const hc_v     down  = hc_v_max(hc_v_sub(hc_v_set(0.0F), dz), hc_v_set(0x1p-60F));
+    const hc_v     part  = hc_v_about_over(hc_v_sub(at.z, top), down); /* to the top's height */
+    const unsigned above = hc_v_greater(at.z, top) & active & ~clear & ~unsure;
+    const hc_v     step  = hc_v_pick(above, part, hc_v_add(out, cone));
+    hc_v_store(p->s, hc_v_pick(clear | above, hc_v_add(at.s, step), at.s));
+
+    const unsigned coarse = hc_i_differ(level, hc_i_set(0));
+    const unsigned deeper = active & ~clear & coarse;
+    const unsigned near   = active & ~clear & ~coarse;
+    hc_v_store(p->until, hc_v_pick(near, hc_v_add(at.s, out), hc_v_load(p->until)));
+    p->near |= near;
+
+    const hc_i one  = hc_i_set(1);
+    const hc_i most = hc_i_set(fast->levels - 1);
+    const hc_i fit  = hc_i_max(
+         hc_i_add(hc_i_right(hc_v_bits(step), hc_i_set(24)), hc_i_set(-LEVEL_BIAS)), hc_i_set(0));
+    const hc_i next = hc_i_min(fit, hc_i_min(hc_i_add(level, one), most));
+    hc_i_store(p->level,
+               hc_i_pick(deeper, hc_i_add(level, hc_i_set(-1)), hc_i_pick(clear, next, level)));
+    const hc_i steps_now = hc_i_load(p->ray.steps);
+    const hc_i moves     = hc_i_load(p->ray.crossings);
+    hc_i_store(p->ray.steps, hc_i_pick(active, hc_i_add(steps_now, one), steps_now));
+    hc_i_store(p->ray.crossings, hc_i_pick(clear, hc_i_add(moves, one), moves));
+}
+
+typedef struct corners {
+    hc_v h00, h10, h01, h11;
+} corners;
+
+static inline corners find_corners(const hc_fast *fast, hc_i x, hc_i y, unsigned lanes)
+{
+    const hc_i   stride = hc_i_set(fast->stride_heights);
+    const hc_i   upper  = index_of(x, y, stride, HC_FAST_HEIGHT_BITS);
+    const hc_i   lower  = index_of(x, hc_i_add(y, hc_i_set(1)), stride, HC_FAST_HEIGHT_BITS);
+    const float *right  = fast->heights + (1 << HC_FAST_HEIGHT_BITS);
+    return (corners){ hc_v_gather(fast->heights, upper, lanes), hc_v_gather(right, upper, lanes),
+                      hc_v_gather(fast->heights, lower, lanes), hc_v_gather(right, lower, lanes) };
+}
+
+static inline hc_v gap_at(const corners *h, hc_v x, hc_v y, hc_v z)
+{
+    const hc_v upper = hc_v_about_muladd(x, hc_v_sub(h->h10, h->h00), h->h00);
+    const hc_v lower = hc_v_about_muladd(x, hc_v_sub(h->h11, h->h01), h->h01);
+    return hc_v_sub(z, hc_v_about_muladd(y, hc_v_sub(lower, upper), upper));
+}
+
+/* What looking at the patches under lanes has shown. */
+typedef struct sight {
+    float    span[HC_LANES]; /* s until the cell is left                                   */
+    int32_t  cell_x[HC_LANES], cell_y[HC_LANES];
+    unsigned clear; /* hit nothing on the cell                                     */
+    unsigned below; /* are certainly below the surface when they leave, before the end */
+} sight;
+
+/* Lanes on single cells: which may hit their patch? */
+static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sight *seen)
+{
+    const place at   = find_place(p);
+    const hc_i  fine = hc_i_set(0);
+    const hc_v  out  = to_leave(fast, p, &at, at.cell_x, at.cell_y, fine);
+    const hc_i  x_in = hc_i_max(hc_i_min(at.cell_x, hc_i_set(fast->x.cells - 1)), fine);
+    const hc_i  y_in = hc_i_max(hc_i_min(at.cell_y, hc_i_set(fast->y.cells - 1)), fine);
+    hc_v_store(seen->span, out);
+    hc_i_store(seen->cell_x, x_in);
+    hc_i_store(seen->cell_y, y_in);
+    seen->clear = 0;
+    seen->below = 0;
+    if (fast->steps) {
+        return;
+    }
+    const unsigned outside = hc_i_differ(x_in, at.cell_x) | hc_i_differ(y_in, at.cell_y);
+    const corners  h       = find_corners(fast, x_in, y_in, lanes);
+    const hc_v     x       = hc_v_sub(at.x, hc_v_from_i(x_in));
+    const hc_v     y       = hc_v_sub(at.y, hc_v_from_i(y_in));
+    const hc_v     run_x   = hc_v_mul(out, hc_v_load(p->ray.dx));
+    const hc_v     run_y   = hc_v_mul(out, hc_v_load(p->ray.dy));
+    const hc_v     enter   = gap_at(&h, x, y, at.z);
+    const hc_v     leave   = gap_at(&h, hc_v_add(x, run_x), hc_v_add(y, run_y),
+                                    hc_v_about_muladd(out, hc_v_load(p->ray.dz), at.z));
+    const hc_v     twist   = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
+    const hc_v bulge = hc_v_abs(hc_v_mul(hc_v_mul(twist, hc_v_set(0.25F)), hc_v_mul(run_x, run_y)));
+    const hc_v gap   = hc_v_sub(hc_v_min(enter, leave), bulge);
+    const hc_v over  = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
+    const hc_v slack = hc_v_set(fast->slack);
+    seen->clear      = hc_v_greater(gap, slack) & lanes & ~outside;
+    seen->below      = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
+                  & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;
+}
+
+#endif
