@@ -36,23 +36,6 @@ static void fill_sample_weights(hc_near_table *table, const hc_exact_pass *pass)
     }
 }
 
-static void fill_block_weights(hc_near_table *table)
-{
-    for (int y = 0; y < HC_NEAR_BLOCKS; y++) {
-        for (int x = 0; x < HC_NEAR_BLOCKS; x++) {
-            for (int p = 0; p < 16; p++) {
-                float most = 0.0F;
-                for (int q = 0; q < 16; q++) {
-                    const float w = hc_near_weights(table, 4 * x + q % 4 - HC_NEAR_REACH,
-                                                    4 * y + q / 4 - HC_NEAR_REACH)[p];
-                    most          = w > most ? w : most;
-                }
-                table->block[y][x][p] = most;
-            }
-        }
-    }
-}
-
 /* ---- passes ---- */
 
 static void set_passes(hc_exact_plan *plan, const hc_cone_job *job, const hc_cone_search *searches)
@@ -69,7 +52,6 @@ static void set_passes(hc_exact_plan *plan, const hc_cone_job *job, const hc_con
                                                         .wrap_u  = job->wrap_u,
                                                         .wrap_v  = job->wrap_v };
         fill_sample_weights(&plan->tables[i], &plan->passes[i]);
-        fill_block_weights(&plan->tables[i]);
     }
 }
 
@@ -127,10 +109,10 @@ void hc_exact_plan_forget(hc_exact_plan *plan)
 
 enum { TILE_SAMPLES = HC_TILE_SIDE * HC_TILE_SIDE };
 
-/* One channel of `count` samples side by side. */
-static void write_plain(float *ratios, const float *found, int count)
+/* All of the tile at once, for vector code. */
+static void find_ratios(float *ratios, const float *found)
 {
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < TILE_SAMPLES; i++) {
         ratios[i] = hc_ratio(found[i]);
     }
 }
@@ -159,14 +141,18 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
                      &plan->scratch[worker * plan->count + i]);
     }
     const size_t channels = (size_t)hc_cones_channels(plan->cones);
-    const int    x        = tile_x * HC_TILE_SIDE;
-    const int    left     = plan->tree.width - x;
-    const int    columns  = left < HC_TILE_SIDE ? left : HC_TILE_SIDE;
+    float        plain[TILE_SAMPLES];
+    if (channels == 1) {
+        find_ratios(plain, found[0]);
+    }
+    const int x       = tile_x * HC_TILE_SIDE;
+    const int left    = plan->tree.width - x;
+    const int columns = left < HC_TILE_SIDE ? left : HC_TILE_SIDE;
     for (int r = 0; r < HC_TILE_SIDE && tile_y * HC_TILE_SIDE + r < plan->tree.height; r++) {
         const size_t y  = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
         float       *to = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
         if (channels == 1) {
-            write_plain(to, found[0] + r * HC_TILE_SIDE, columns);
+            memcpy(to, plain + r * HC_TILE_SIDE, (size_t)columns * sizeof *to);
         } else {
             write_channels(to, plan, found, r * HC_TILE_SIDE, columns);
         }

@@ -14,8 +14,6 @@
  * table; beyond, weights are computed when needed. A multiple of 4. */
 #define HC_NEAR_REACH 28
 #define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
-#define HC_NEAR_BLOCKS (2 * HC_NEAR_REACH / 4 + 1)
-
 #define HC_NEAR_GROUPS (HC_NEAR_SIDE + 3)
 
 typedef struct hc_near_table {
@@ -25,8 +23,6 @@ typedef struct hc_near_table {
      * of four for falling r - l, and hc_near_weights finds the first of the sixteen. 0 for the
      * sample itself and outside the quadrant. */
     _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_GROUPS][4];
-    /* the largest weight of any sample in the block at 4 * (column - HC_NEAR_REACH / 4) */
-    _Alignas(64) float block[HC_NEAR_BLOCKS][HC_NEAR_BLOCKS][16];
 } hc_near_table;
 
 static inline const float *hc_near_weights(const hc_near_table *table, int column, int row)
@@ -47,22 +43,40 @@ typedef struct hc_exact_pass {
 #define HC_RECENT 32
 /* Nodes of one level that wait; when full, the levels below are searched first. */
 #define HC_LIST 240
+#define HC_LIST_ROOM (HC_LIST + 32) /* one more node's children, and what packing them writes */
 
 typedef struct hc_node_list {
     int     count;
-    int32_t x[HC_LIST + 32], y[HC_LIST + 32];
-    float   top[HC_LIST + 32]; /* highest sample below the node, minus base */
+    int32_t x[HC_LIST_ROOM], y[HC_LIST_ROOM];
+    float   top[HC_LIST_ROOM]; /* highest sample below the node, minus base */
 } hc_node_list;
 
-_Static_assert(HC_NEAR_BLOCKS *HC_NEAR_BLOCKS <= HC_LIST, "near blocks must fit a list");
+/* What one part needs of a list: indices into it, and for every listed block a plane over its
+ * samples that they must rise above: start + rise_u * column + rise_v * row. */
+typedef struct hc_block_choice {
+    int     count;
+    int32_t blocks[HC_LIST_ROOM];
+    float   start[HC_LIST_ROOM], rise_u[HC_LIST_ROOM], rise_v[HC_LIST_ROOM];
+} hc_block_choice;
+
+/* Samples near one part, and where their weights begin in the table. */
+typedef struct hc_near_samples {
+    int     count;
+    int32_t weights[16 * HC_LIST + 32];
+    float   heights[16 * HC_LIST + 32];
+} hc_near_samples;
+
+_Static_assert((2 * HC_NEAR_REACH / 4 + 1) * (2 * HC_NEAR_REACH / 4 + 1) <= HC_LIST,
+               "near blocks must fit a list");
 
 /* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are
  * first guesses for the next tile, which its result does not depend on. */
 typedef struct hc_exact_scratch {
-    hc_node_list lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
-    hc_node_list near;
-    float        recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
-    unsigned     recent_next;
+    hc_node_list    lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
+    hc_node_list    near;
+    hc_near_samples wanted;
+    float           recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
+    unsigned        recent_next;
 } hc_exact_scratch;
 
 /* Search one tile: the largest steepness of each sample into `steepness` (HC_TILE_SIDE rows of

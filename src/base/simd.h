@@ -19,7 +19,7 @@
  *                    hc_gather_neighbours the same from base + 4 * index
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
  * if
- *                    fewer are set; returns how many are */
+ *                    fewer are set; returns how many are; hc_pack_v the lanes of a vector */
 #ifndef HC_BASE_SIMD_H
 #define HC_BASE_SIMD_H
 
@@ -114,6 +114,12 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
 {
     const __m512i all = _mm512_add_epi32(_mm512_loadu_si512(values), _mm512_set1_epi32(add));
     _mm512_storeu_si512(out, _mm512_maskz_compress_epi32((__mmask16)lanes, all));
+    return __builtin_popcount(lanes);
+}
+
+static inline int hc_pack_v(float *out, unsigned lanes, hc_v a)
+{
+    _mm512_storeu_ps(out, _mm512_maskz_compress_ps((__mmask16)lanes, a));
     return __builtin_popcount(lanes);
 }
 
@@ -340,6 +346,13 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
     const __m256i  high = _mm256_add_epi32(_mm256_loadu_si256(from + 1), all);
     const int      n    = hc_pack8(out, lanes & 255, low);
     return n + hc_pack8(out + n, lanes >> 8, high);
+}
+
+static inline int hc_pack_v(float *out, unsigned lanes, hc_v x)
+{
+    int32_t  *to = (int32_t *)(void *)out;
+    const int n  = hc_pack8(to, lanes & 255, _mm256_castps_si256(x.a));
+    return n + hc_pack8(to + n, lanes >> 8, _mm256_castps_si256(x.b));
 }
 
 typedef struct hc_i {
@@ -574,6 +587,17 @@ static inline int hc_pack_lanes(int32_t *out, unsigned lanes, const int32_t *val
     return count;
 }
 
+static inline int hc_pack_v(float *out, unsigned lanes, hc_v a)
+{
+    float values[HC_LANES];
+    int   count = 0;
+    hc_v_store(values, a);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        out[count++] = values[__builtin_ctz(lanes)];
+    }
+    return count;
+}
+
 typedef struct hc_i {
     int32_t lane[HC_LANES];
 } hc_i;
@@ -694,17 +718,6 @@ static inline hc_v hc_v_lookup(const float *table, hc_i index)
 static inline hc_v hc_v_about_sqrt(hc_v a)
 {
     return hc_v_mul(a, hc_v_about_rsqrt(hc_v_max(a, hc_v_set(0x1p-60F)))); /* no 0 * infinity */
-}
-
-/* The kept lanes of sixteen floats, densely; writes like hc_pack_lanes. */
-static inline int hc_pack_floats(float *out, unsigned lanes, const float *values)
-{
-    int32_t bits[HC_LANES];
-    int32_t packed[HC_LANES];
-    memcpy(bits, values, sizeof bits);
-    const int count = hc_pack_lanes(packed, lanes, bits, 0);
-    memcpy(out, packed, sizeof packed);
-    return count;
 }
 
 #endif

@@ -122,7 +122,7 @@ static hc_result check_shape(const hc_field *field, hc_log *log)
 
 static bool in_range(float height)
 {
-    return height >= 0.0F && height <= 1.0F; /* false for NaN */
+    return (height >= 0.0F) & (height <= 1.0F); /* false for NaN; no branch: vector code */
 }
 
 static bool row_in_range(const float *row, int width)

@@ -1,0 +1,130 @@
+/* Samples of the field against the sixteen samples of a part. Part of exact_kernel.h. */
+#ifndef HC_BAKE_EXACT_SAMPLES_H
+#define HC_BAKE_EXACT_SAMPLES_H
+
+#include "exact_tile.h"
+
+/* One near sample against one part: no test, `weights` are the canonical ones. The order of hc_v_max
+ * matters: rise * 0 may be -0, which must not replace S. */
+INLINE hc_v take_near(hc_v S, hc_v height, float sample, const float *weights)
+{
+    const hc_v rise = hc_v_sub(hc_v_set(sample), height);
+    return hc_v_max(hc_v_mul(rise, hc_v_load(weights)), S);
+}
+
+/* All samples of a near block. Maxima in turn: one chain would take longer than all the rest. */
+INLINE void take_near_block(hc_v S[4], hc_v height, const hc_near_table *table,
+                            const float *samples, int dx, int dy)
+{
+    for (int c = 0; c < 4; c++) {
+        const float *weights = hc_near_weights(table, dx + c, dy);
+        for (int r = 0; r < 4; r++) {
+            S[c] = take_near(S[c], height, samples[4 * r + c], weights - 4 * r);
+        }
+    }
+}
+
+/* Four maxima begin with S and end in S, which lets T rise. */
+INLINE void begin_maxima(const tile *t, int part, hc_v S[4])
+{
+    for (int i = 0; i < 4; i++) {
+        S[i] = t->S[part];
+    }
+}
+
+INLINE void end_maxima(tile *t, int part, const hc_v S[4])
+{
+    t->S[part] = hc_v_max(hc_v_max(S[0], S[1]), hc_v_max(S[2], S[3]));
+    raise_threshold(t, part);
+}
+
+/* Lanes from which an offset of (across, down) samples lies in the quadrant. */
+INLINE unsigned in_quadrant(const hc_exact_pass *pass, hc_v across, hc_v down)
+{
+    const hc_v zero = hc_v_set(0.0F);
+    return ~(hc_v_greater(zero, hc_v_mul(across, hc_v_set((float)pass->sign_u)))
+             | hc_v_greater(zero, hc_v_mul(down, hc_v_set((float)pass->sign_v))));
+}
+
+INLINE hc_v canonical_weight(kind k, const hc_exact_pass *pass, hc_v across, hc_v down)
+{
+    const hc_v x = hc_v_mul(hc_v_abs(across), hc_v_set(pass->step_u));
+    const hc_v y = hc_v_mul(hc_v_abs(down), hc_v_set(pass->step_v));
+    const hc_v distance =
+        k.diamond ? hc_v_add(x, y) : hc_v_sqrt(hc_v_add(hc_v_mul(x, x), hc_v_mul(y, y)));
+    return hc_v_div(hc_v_set(1.0F), distance);
+}
+
+/* Which lanes may gain from a rise at these offsets: where it is above slope (T per column) *
+ * distance. */
+INLINE unsigned may_gain(kind k, const tile *t, hc_v slope, hc_v rise, hc_v across, hc_v down)
+{
+    const hc_v size = measure(k, across, hc_v_mul(down, hc_v_set(t->aspect)));
+    return k.diamond ? hc_v_greater(rise, hc_v_mul(slope, size))
+                     : hc_v_greater(hc_v_mul(rise, rise), hc_v_mul(hc_v_mul(slope, slope), size));
+}
+
+/* One distant sample against one part. True if it raised S somewhere. */
+INLINE bool take_distant(kind k, tile *t, int part, int x, int y, float height)
+{
+    const hc_v rise   = hc_v_max(hc_v_sub(hc_v_set(height), t->height[part]), hc_v_set(0.0F));
+    const hc_v across = hc_v_sub(hc_v_set((float)x), part_columns(t, part));
+    const hc_v down   = hc_v_sub(hc_v_set((float)y), part_rows(t, part));
+    const hc_v slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
+    unsigned   better = may_gain(k, t, slope, rise, hc_v_abs(across), hc_v_abs(down));
+    if (k.quadrant) {
+        better &= in_quadrant(t->pass, across, down);
+    }
+    if (better == 0) {
+        return false;
+    }
+    const hc_v steepness = hc_v_mul(rise, canonical_weight(k, t->pass, across, down));
+    t->S[part]           = hc_v_max(hc_v_keep(better, steepness), t->S[part]);
+    raise_threshold(t, part);
+    return true;
+}
+
+/* A real sample's steepness, lowered, is a threshold: guesses from recent limits number `first` to
+ * `last` - 1. */
+INLINE void guess_from_recent(kind k, tile *t, int part, unsigned first, unsigned last)
+{
+    const hc_exact_pass    *pass    = t->pass;
+    const hc_exact_scratch *scratch = t->scratch;
+    const hc_v              columns = part_columns(t, part);
+    const hc_v              rows    = part_rows(t, part);
+    hc_v                    best    = hc_v_set(0.0F);
+    for (unsigned j = first; j != last; j++) {
+        const unsigned i      = j % HC_RECENT;
+        const hc_v     across = hc_v_sub(hc_v_set(scratch->recent_x[i]), columns);
+        const hc_v     below  = hc_v_sub(hc_v_set(scratch->recent_y[i]), rows);
+        const hc_v     down   = hc_v_mul(below, hc_v_set(t->aspect));
+        const hc_v     size =
+            k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down)) : measure(k, across, down);
+        const hc_v root = hc_v_about_rsqrt(size);
+        hc_v       rise = hc_v_sub(hc_v_set(scratch->recent_height[i]), t->height[part]);
+        if (k.quadrant) {
+            rise = hc_v_keep(in_quadrant(pass, across, down), rise);
+        }
+        /* the sample itself, 0 * infinity, keeps best */
+        best = hc_v_max(hc_v_mul(rise, k.diamond ? hc_v_mul(root, root) : root), best);
+    }
+    t->T[part] = hc_v_max(hc_v_mul(best, hc_v_set(LOWER / pass->step_u)), t->T[part]);
+}
+
+/* First in, first out; but one that limits again when its turn has come stays. */
+static void remember(hc_exact_scratch *scratch, int x, int y, float height)
+{
+    int known = -1;
+    for (int i = 0; i < HC_RECENT; i++) {
+        known = scratch->recent_x[i] == (float)x && scratch->recent_y[i] == (float)y ? i : known;
+    }
+    const int oldest = (int)(scratch->recent_next % HC_RECENT);
+    if (known < 0) {
+        scratch->recent_x[oldest]      = (float)x;
+        scratch->recent_y[oldest]      = (float)y;
+        scratch->recent_height[oldest] = height;
+    }
+    scratch->recent_next += known < 0 || known == oldest;
+}
+
+#endif
