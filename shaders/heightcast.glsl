@@ -7,6 +7,9 @@
  *                                   HC_QDM, HC_PARALLAX, HC_LINEAR, HC_RELIEF, HC_OCCLUSION,
  *                                   HC_CONE_FIXED, HC_CONE_LOOP, HC_CONE_EXACT, HC_RELAXED,
  *                                   HC_ROBUST, HC_QUICK
+ *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00, GLSL
+ *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
+ *                                   axes that hc_wraps names
  *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R, roots
  *                                   of the ratios in G, slopes in B and A; hc_ratios is not read
  * Methods, and what they find and lose: include/heightcast/trace.h, where they have the same names.
@@ -75,7 +78,7 @@ uniform bvec2 hc_wraps;      /* axes along which the field repeats */
 uniform int   hc_step_count; /* at most so many steps, in methods that count them */
 uniform int   hc_refinements; /* bisections; -1: one secant, -2: none */
 
-/* Texels read so far, if you care. */
+/* Reads of textures so far, if you care. */
 int hc_fetch_count = 0;
 
 /* ---- results --------------------------------------------------------------------------------- */
@@ -133,6 +136,34 @@ float hc_ratio(ivec2 texel)
 #endif
 }
 
+#ifdef HC_GATHER
+/* Drivers disagree about what a gather finds over an edge that does not repeat. */
+bool hc_gathers(ivec2 cell)
+{
+    return (hc_wraps.x || (cell.x >= 0 && cell.x < hc_size.x - 1))
+           && (hc_wraps.y || (cell.y >= 0 && cell.y < hc_size.y - 1));
+}
+#endif
+
+/* Of a cell's corners, as hc_corners has them. */
+vec4 hc_corner_ratios(ivec2 cell)
+{
+#if defined(HC_GATHER) && defined(HC_DUMMER)
+    if (hc_gathers(cell)) {
+        hc_fetch_count += 1;
+        vec4 roots = textureGather(hc_heights, (vec2(cell) + 1.0) / vec2(hc_size), 1).wzxy;
+        return roots * roots;
+    }
+#elif defined(HC_GATHER)
+    if (hc_gathers(cell)) {
+        hc_fetch_count += 1;
+        return textureGather(hc_ratios, (vec2(cell) + 1.0) / vec2(hc_size)).wzxy;
+    }
+#endif
+    return vec4(hc_ratio(cell), hc_ratio(cell + ivec2(1, 0)), hc_ratio(cell + ivec2(0, 1)),
+                hc_ratio(cell + ivec2(1, 1)));
+}
+
 vec2 hc_low(void)
 {
     return vec2(hc_wraps.x ? -HC_MISS : -hc_zero.x, hc_wraps.y ? -HC_MISS : -hc_zero.y);
@@ -164,16 +195,29 @@ struct hc_patch {
     float twist;
 };
 
+/* The samples at a cell's corners: upper left, upper right, lower left, lower right. */
+vec4 hc_corners(ivec2 cell)
+{
+#ifdef HC_GATHER
+    if (hc_gathers(cell)) {
+        hc_fetch_count += 1;
+        return textureGather(hc_heights, (vec2(cell) + 1.0) / vec2(hc_size)).wzxy;
+    }
+#endif
+    ivec2 a = hc_index(cell);
+    ivec2 b = hc_index(cell + 1);
+    hc_fetch_count += 4;
+    return vec4(texelFetch(hc_heights, a, 0).r, texelFetch(hc_heights, ivec2(b.x, a.y), 0).r,
+                texelFetch(hc_heights, ivec2(a.x, b.y), 0).r, texelFetch(hc_heights, b, 0).r);
+}
+
 hc_patch hc_patch_of(ivec2 cell)
 {
-    float h00 = hc_sample(cell);
     if (HC_METHOD == HC_QDM) {
-        return hc_patch(h00, vec2(0.0), 0.0); /* a flat top */
+        return hc_patch(hc_sample(cell), vec2(0.0), 0.0); /* a flat top */
     }
-    float h10 = hc_sample(cell + ivec2(1, 0));
-    float h01 = hc_sample(cell + ivec2(0, 1));
-    float h11 = hc_sample(cell + ivec2(1, 1));
-    return hc_patch(h00, vec2(h10 - h00, h01 - h00), h11 - h10 - h01 + h00);
+    vec4 h = hc_corners(cell);
+    return hc_patch(h.x, h.yz - h.x, h.w - h.y - h.z + h.x);
 }
 
 /* Height of the ray above the patch, r after s: x + r * y + r * r * z. */
@@ -485,8 +529,7 @@ float hc_image_ratio(vec2 at, bool root)
     vec2  place = clamp(at, hc_low(), hc_high());
     ivec2 cell  = ivec2(floor(place));
     vec2  f     = place - vec2(cell);
-    vec4  r     = min(vec4(hc_ratio(cell), hc_ratio(cell + ivec2(1, 0)), hc_ratio(cell + ivec2(0, 1)),
-                           hc_ratio(cell + ivec2(1, 1))), vec4(1.0));
+    vec4  r     = min(hc_corner_ratios(cell), vec4(1.0));
     r         = root ? sqrt(r) : r;
     vec2  row = mix(r.xz, r.yw, f.x);
     float sum = mix(row.x, row.y, f.y);

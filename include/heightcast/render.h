@@ -95,8 +95,8 @@ typedef struct hc_scene {
  * missed       shaded in grey; red where the first hit was lost (the exact one lies nearer by more
  *              than depth / 64, or there is one where the method has none), yellow where one was
  *              made up
- * error        distance from the exact hit, as a heat map that ends at `top`; red and yellow where
- *              only one of the two hits */
+ * error        distance from the exact hit, as a heat map that ends at `top`; red where it alone hits,
+ *              yellow where the method alone does */
 typedef enum hc_view {
     HC_VIEW_SHADED = 0,
     HC_VIEW_HEIGHT,
@@ -125,6 +125,7 @@ typedef struct hc_render_options {
 /* What was seen. Counts are of view rays: width * height * samples. */
 typedef struct hc_render_figures {
     uint64_t rays, hits;
+    uint64_t entered; /* come to the hull, or to a cut face */
     uint64_t unconverged;
     uint64_t lost, made_up; /* views missed and error: against the exact caster      */
     double   mean_steps;    /* of view rays that come to the hull                   */
@@ -149,7 +150,7 @@ typedef struct hc_picture {
  * nowhere farther than 1/512 of the relief's depth from it, and a method starts anew on each. So
  * cones stay as safe as they are on the plane; docs/algorithms.md has the bound.
  *
- * Memory: 72 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers
+ * Memory: 76 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers
  * out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY, on the GPU too;
  * HC_ERROR_CANCELLED. gl: HC_ERROR_UNSUPPORTED where there is no EGL, or no OpenGL 4.3, or this build
  * has none, and for fast; HC_ERROR_LIMIT for fields and pictures that are too large for it;

@@ -29,6 +29,7 @@ static void compare(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sam
     const float slack = slack_of(stage);
     pixel->lost += sample->exact + slack < sample->distance ? 1 : 0;
     pixel->made_up += sample->distance + slack < sample->exact ? 1 : 0;
+    pixel->exact += sample->exact < INFINITY ? 1 : 0;
     if (sample->distance < INFINITY && sample->exact < INFINITY) {
         pixel->both++;
         pixel->error += fabsf(sample->distance - sample->exact);
@@ -131,11 +132,11 @@ static void grey_down(float rgb[3])
     rgb[0] = rgb[1] = rgb[2] = grey;
 }
 
-/* Sums of the shaded colour, in grey, with lost and made up hits on it. */
-static void mark_wrong(float rgb[3], const hc_pixel *p, float samples)
+/* Shares of rays whose hits are wrong, on top of what is there. */
+static void mark_wrong(float rgb[3], int lost, int made_up, float samples)
 {
-    mix(rgb, (float)p->made_up / samples, 0.9F, 0.75F, 0.0F);
-    mix(rgb, (float)p->lost / samples, 0.9F, 0.0F, 0.0F);
+    mix(rgb, (float)made_up / samples, 0.9F, 0.75F, 0.0F);
+    mix(rgb, (float)lost / samples, 0.9F, 0.0F, 0.0F);
 }
 
 static void view_numbers(float rgb[3], const hc_stage *stage, const hc_pixel *p, double top)
@@ -167,12 +168,12 @@ static void colour(float rgb[3], const hc_stage *stage, const hc_pixel *p, doubl
         mix(rgb, (float)p->unconverged / samples, 1.0F, 0.0F, 1.0F);
     } else if (view == HC_VIEW_MISSED) {
         grey_down(rgb);
-        mark_wrong(rgb, p, samples);
+        mark_wrong(rgb, p->lost, p->made_up, samples);
     } else if (view != HC_VIEW_SHADED && seen) {
         view_numbers(rgb, stage, p, top);
     }
     if (view == HC_VIEW_ERROR) {
-        mark_wrong(rgb, p, samples);
+        mark_wrong(rgb, p->exact - p->both, p->hits - p->both, samples);
     }
 }
 
@@ -213,7 +214,7 @@ static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pi
                   size_t pixel_count)
 {
     double   steps = 0.0, error = 0.0, fetches = 0.0;
-    uint64_t entered = 0, both = 0;
+    uint64_t both = 0;
     *figures = (hc_render_figures){ .rays    = pixel_count * (uint64_t)stage->scene.camera.samples,
                                     .seconds = figures->seconds };
     for (size_t i = 0; i < pixel_count; i++) {
@@ -222,14 +223,15 @@ static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pi
         figures->unconverged += (uint64_t)p->unconverged;
         figures->lost += (uint64_t)p->lost;
         figures->made_up += (uint64_t)p->made_up;
-        entered += (uint64_t)p->entered;
+        figures->entered += (uint64_t)p->entered;
         both += (uint64_t)p->both;
         steps += (double)p->steps;
         fetches += (double)p->fetches;
         error += (double)p->error;
     }
-    figures->mean_steps   = entered > 0 ? steps / (double)entered : 0.0;
-    figures->mean_fetches = entered > 0 ? fetches / (double)entered : 0.0;
+    const double entered  = fmax((double)figures->entered, 1.0);
+    figures->mean_steps   = steps / entered;
+    figures->mean_fetches = fetches / entered;
     figures->mean_error   = both > 0 ? error / (double)both : 0.0;
 }
 

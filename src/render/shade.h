@@ -21,7 +21,7 @@ typedef struct hc_pixel {
     float rgb[3];
     float normal[3];
     float height, depth, steps, fetches, error;
-    int   hits, entered, unconverged, lost, made_up, both;
+    int   hits, entered, unconverged, lost, made_up, exact, both;
 } hc_pixel;
 
 /* Light what the CPU's ray came to. */

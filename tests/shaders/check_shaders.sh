@@ -52,7 +52,13 @@ for language in core es; do
         RELAXED ROBUST QUICK; do
         fragment $language-$method.frag $language "HC_METHOD HC_$method"
         check $language-$method.frag frag
+        if [ $language = core ]; then
+            fragment gather-$method.frag core "HC_METHOD HC_$method" HC_GATHER
+            check gather-$method.frag frag
+        fi
     done
+    fragment gather-dummer.frag core "HC_METHOD HC_CONE_LOOP" HC_GATHER HC_DUMMER
+    check gather-dummer.frag frag
     fragment $language-diamond.frag $language "HC_METHOD HC_SAFE" "HC_CONE_CHANNELS 1"
     check $language-diamond.frag frag
     for method in PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT QUICK; do

@@ -38,9 +38,10 @@ static hc_result build(unsigned *program, const hc_stage *stage, hc_trace_method
                                           hc_shader_text_named("heightcast.glsl") },
                                         { "relief.frag", hc_shader_text_named("relief.frag") },
                                         { NULL, NULL } };
-    (void)snprintf(head, sizeof head,
-                   "#version 430 core\n#define HC_METHOD %d\n#define HC_CONE_CHANNELS %d\n",
-                   hc_gl_method(method), one ? 1 : 4);
+    (void)snprintf(
+        head, sizeof head,
+        "#version 430 core\n#define HC_METHOD %d\n#define HC_GATHER\n#define HC_CONE_CHANNELS %d\n",
+        hc_gl_method(method), one ? 1 : 4);
     const hc_result result = hc_gl_build(program, head, vertex, fragment, log);
     if (result == HC_OK) {
         glUseProgram(*program);
@@ -77,6 +78,26 @@ static hc_result make_frame(canvas *c, const hc_stage *stage, hc_log *log)
     return hc_gl_check("picture", log);
 }
 
+static void draw_band(unsigned program, int first_row, int width, int rows, const double place[2])
+{
+    glUseProgram(program);
+    glUniform1f(glGetUniformLocation(program, "u_first_row"), (float)first_row);
+    glUniform2f(glGetUniformLocation(program, "u_sample"), (float)place[0], (float)place[1]);
+    glViewport(0, 0, width, rows);
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    glFinish();
+}
+
+/* Drivers finish compiling when they draw for the first time: that is no time of drawing. */
+static void warm_up(const canvas *c)
+{
+    static const double middle[2] = { 0.5, 0.5 };
+    draw_band(c->program, 0, 1, 1, middle);
+    if (c->exact != 0) {
+        draw_band(c->exact, 0, 1, 1, middle);
+    }
+}
+
 static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
 {
     const hc_trace_method method = stage->scene.relief.trace.method;
@@ -92,6 +113,7 @@ static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
     }
     c->back =
         malloc((size_t)stage->width * (size_t)c->rows * CHANNELS * (PLANES + 1) * sizeof *c->back);
+    warm_up(c);
     return c->back != NULL ? HC_OK : hc_fail(log, HC_ERROR_MEMORY, "no memory for what GL draws");
 }
 
@@ -110,16 +132,6 @@ static void unmake(canvas *c)
 }
 
 /* ---- drawing ------------------------------------------------------------------------------- */
-
-static void draw_band(unsigned program, int first_row, int width, int rows, const double place[2])
-{
-    glUseProgram(program);
-    glUniform1f(glGetUniformLocation(program, "u_first_row"), (float)first_row);
-    glUniform2f(glGetUniformLocation(program, "u_sample"), (float)place[0], (float)place[1]);
-    glViewport(0, 0, width, rows);
-    glDrawArrays(GL_TRIANGLES, 0, 3);
-    glFinish();
-}
 
 static void read_plane(float *plane, int index, int width, int rows)
 {

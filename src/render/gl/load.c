@@ -49,6 +49,15 @@ static hc_result load_image(unsigned *texture, int unit, const float *texels, in
     return hc_gl_check(what, log);
 }
 
+/* textureGather reads over the edges that repeat. */
+static void set_wrap(hc_wrap wrap)
+{
+    const bool u = ((unsigned)wrap & HC_WRAP_U) != 0;
+    const bool v = ((unsigned)wrap & HC_WRAP_V) != 0;
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, u ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, v ? GL_REPEAT : GL_CLAMP_TO_EDGE);
+}
+
 static hc_result load_pyramid(unsigned *texture, int unit, const hc_pyramid *pyramid, hc_log *log)
 {
     begin_texture(texture, unit, pyramid->levels);
@@ -75,6 +84,7 @@ hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, h
     const bool         needs  = hc_trace_method_needs(relief->trace.method) != HC_NEEDS_NOTHING;
     hc_result          result = load_image(&textures[HC_GL_HEIGHTS], HC_GL_HEIGHTS, field->heights,
                                            field->width, field->height, 1, "field", log);
+    set_wrap(field->wrap);
     if (result == HC_OK && needs) {
         result =
             load_image(&textures[HC_GL_RATIOS], HC_GL_RATIOS, relief->trace.ratios, field->width,
