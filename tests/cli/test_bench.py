@@ -108,6 +108,31 @@ class Bench(Case):
     def steps(self, *options):
         return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", *options, "--json"))
 
+    def test_render(self):
+        report = json.loads(self.text("bench", "render", "--sizes", 32, "--size", "48x32", "--repeat",
+                                      1, "--csv", "render.csv", "--json"))
+        rows = report["rows"]
+        self.assertEqual(len(rows), 24 + 15)
+        quick = [row for row in rows if row["method"] in ("quick", "relaxed")]
+        self.assertEqual({row["map"] for row in quick},
+                         {"brute", "relaxed", "quick-improved", "quick-centre"})
+        self.assertEqual({(row["steps"], row["refine"]) for row in quick},
+                         {(s, r) for s in (32, 200) for r in ("none", "secant", "binary")})
+        for row in rows:
+            self.assertGreater(row["milliseconds"], 0)
+            self.assertGreater(row["mean_steps"], 0)
+            if row["method"] in ("safe", "maxmip"):
+                self.assertEqual((row["lost"], row["made_up"]), (0, 0))
+        self.assertGreater(sum(row["lost"] + row["made_up"] for row in quick), 0)
+        safe = next(row for row in rows if row["map"] == "quadrant")
+        maxmip = next(row for row in rows if row["method"] == "maxmip")
+        self.assertAlmostEqual(report["figures"][0]["over_maxmip"]["ratio"],
+                               safe["milliseconds"] / maxmip["milliseconds"])
+        self.assertIn("over_loop", report["figures"][0])
+        with open(self.path("render.csv"), newline="") as file:
+            self.assertEqual(len(list(csv.DictReader(file))), len(rows))
+        self.refused("bench", "render", "--methods", "safe", code=USAGE, says="--methods")
+
     def test_steps(self):
         report = self.steps("--field", "fbm,spikes", "-j", 1, "--csv", "steps.csv")
         rows = {(r["field"], r["side"], r["rays"], r["method"]): r for r in report["rows"]}
@@ -141,7 +166,7 @@ class Bench(Case):
 
     def test_usage(self):
         self.refused("bench", "steps", "--methods", "fast,linear", code=USAGE, says="maxmip")
-        self.refused("bench", "render", code=USAGE, says="'render'")
+        self.refused("bench", "terrain", code=USAGE, says="'terrain'")
         self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")
         self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])
         self.refused("bench", "--sizes", "16,", code=USAGE, says="--sizes 16,")

@@ -1,4 +1,4 @@
-/* `bench trace` and `bench steps`, and what they share with `bench bake`. */
+/* `bench trace`, `bench steps` and `bench render`, and what they share with `bench bake`. */
 #ifndef HC_CLI_BENCH_TRACE_H
 #define HC_CLI_BENCH_TRACE_H
 
@@ -33,5 +33,6 @@ void hc_cli_free_grounds(hc_cli_grounds *grounds);
 
 int hc_cli_run_bench_trace(hc_cli *cli);
 int hc_cli_run_bench_steps(hc_cli *cli);
+int hc_cli_run_bench_render(hc_cli *cli);
 
 #endif

@@ -87,9 +87,10 @@ static bool asks_for(const hc_cli *cli, const char *what)
 static int check_arguments(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
-    if (!asks_for(cli, "bake") && !asks_for(cli, "trace") && !asks_for(cli, "steps")) {
+    if (!asks_for(cli, "bake") && !asks_for(cli, "trace") && !asks_for(cli, "steps")
+        && !asks_for(cli, "render")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
-                           "nothing to measure is called '%s'; bake, trace and steps are",
+                           "nothing to measure is called '%s'; bake, trace, steps and render are",
                            settings->paths[0]);
     }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
@@ -151,7 +152,9 @@ int hc_cli_run_bench(hc_cli *cli)
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
     int code           = check_arguments(cli);
     if (code == HC_CLI_DONE && !asks_for(cli, "bake")) {
-        return asks_for(cli, "trace") ? hc_cli_run_bench_trace(cli) : hc_cli_run_bench_steps(cli);
+        return asks_for(cli, "trace")   ? hc_cli_run_bench_trace(cli)
+               : asks_for(cli, "steps") ? hc_cli_run_bench_steps(cli)
+                                        : hc_cli_run_bench_render(cli);
     }
     code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
     if (code != HC_CLI_DONE) {

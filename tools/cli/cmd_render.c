@@ -89,7 +89,8 @@ static bool has_legend(const hc_cli *cli, const hc_picture *picture)
 /* In the lower left corner, where the background is. */
 static void draw_legend(hc_cli_canvas *c, hc_view view, double top)
 {
-    const int  width = c->width / 3;
+    const int  third = c->width / 3;
+    const int  width = third > LEGEND_LEAST ? third : LEGEND_LEAST - 2 * MARGIN;
     const int  y     = c->height - MARGIN - LEGEND_HEIGHT;
     const int  line  = y - 14;
     char       end[32];
@@ -104,7 +105,7 @@ static void draw_legend(hc_cli_canvas *c, hc_view view, double top)
                    3);
         }
     }
-    (void)snprintf(end, sizeof end, "%.3g", top);
+    (void)snprintf(end, sizeof end, "%.2g", top);
     hc_cli_draw_text(c, MARGIN, line, "0");
     hc_cli_draw_text(c, MARGIN + (width - hc_cli_text_width("STEPS")) / 2, line,
                      view == HC_VIEW_STEPS ? "steps" : "error");
@@ -168,6 +169,7 @@ static void show(hc_cli *cli, const hc_picture *picture)
     hc_cli_number(cli, "hits", (double)f->hits, NULL);
     hc_cli_number(cli, "unconverged", (double)f->unconverged, NULL);
     hc_cli_number(cli, "mean_steps", f->mean_steps, NULL);
+    hc_cli_number(cli, "seconds_drawing", f->seconds, NULL);
     if (settings->backend == HC_CLI_GL) {
         hc_cli_number(cli, "mean_fetches", f->mean_fetches, NULL);
     }

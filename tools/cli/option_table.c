@@ -153,7 +153,7 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "The very bytes of the 2006 preprocessor, its faults included; implies --layout "
                   "dummer." },
     { .name     = "backend",
-      .commands = HC_CLI_BAKE | HC_CLI_RENDER,
+      .commands = HC_CLI_BAKE | HC_CLI_RENDER | HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(backend),
@@ -397,7 +397,7 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "N,...",
       .allowed  = "sides from 1 to 1048576, separated by commas",
       .help = "Sides of the square fields (default 512,4096; trace: 1024; steps: 64,128,256,512,"
-              "1024)." },
+              "1024; render: 512)." },
     { .name     = "field",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -405,8 +405,9 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(fields),
       .metavar  = "NAME,...",
       .allowed  = "names that 'heightcast gen --list' shows, separated by commas",
-      .help     = "Generated fields (default fbm). trace and steps also take files, repeated as "
-                  "tiles." },
+      .help = "Generated fields (default fbm; render: cobbles). trace, steps and render also take "
+              "files, repeated as "
+              "tiles." },
     { .name     = "methods",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,

@@ -53,8 +53,8 @@ const hc_cli_command hc_cli_commands[] = {
       "itself, so it has true depth, shadows and silhouettes; there is no mesh. Heights are "
       "stretched to the full depth unless --range says otherwise.",
       false },
-    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace|steps]", 0, 1,
-      "Measure the baker, the casters of rays, or count the steps of rays",
+    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace|steps|render]", 0, 1,
+      "Measure the baker, the casters of rays, their steps, or frames of relief",
       "bake: each measurement runs in a process of its own, so that its peak memory is known.",
       true },
     { 0 },

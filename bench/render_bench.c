@@ -1,0 +1,218 @@
+#include "render_bench.h"
+
+#include <heightcast/bake.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { WIDTH = 480, HEIGHT = 270, REPEAT = 3, BINARY = 5, MAPS = 6 };
+
+/* ---- maps ------------------------------------------------------------------------------------ */
+
+typedef struct map_recipe {
+    const char *name;
+    hc_cones    cones;
+    hc_method   method;
+    bool        cells;
+} map_recipe;
+
+static const map_recipe recipes[MAPS] = {
+    { "brute", HC_CONES_L2, HC_METHOD_EXACT, false }, /* the same ratios */
+    { "relaxed", HC_CONES_L2, HC_METHOD_FALLING_EDGE, false },
+    { "quick-improved", HC_CONES_L2, HC_METHOD_QUICK_IMPROVED, false },
+    { "quick-centre", HC_CONES_L2, HC_METHOD_QUICK_CENTRE, false },
+    { "diamond", HC_CONES_L1, HC_METHOD_EXACT, true },
+    { "quadrant", HC_CONES_QUAD, HC_METHOD_EXACT, true },
+};
+
+enum { BRUTE, RELAXED, QUICK_IMPROVED, QUICK_CENTRE, DIAMOND, QUADRANT, NONE };
+
+typedef struct job {
+    const hc_bench_render_options *options;
+    const char                    *name; /* of the field */
+    hc_field                       field;
+    float                         *heights, *maps[MAPS];
+    hc_picture                     picture;
+    hc_log                        *log;
+} job;
+
+static hc_result bake(float **map, const map_recipe *recipe, const job *j)
+{
+    const hc_cone_options options  = { .cones   = recipe->cones,
+                                       .method  = recipe->method,
+                                       .threads = j->options->threads };
+    const size_t          channels = (size_t)hc_cones_channels(recipe->cones);
+    const size_t          bytes =
+        (size_t)j->field.width * (size_t)j->field.height * channels * sizeof(float);
+    float    *ratios = malloc(bytes);
+    hc_result result =
+        ratios == NULL ? HC_ERROR_MEMORY : hc_bake_cone_map(ratios, &j->field, &options, j->log);
+    *map = result == HC_OK && recipe->cells ? malloc(bytes) : NULL;
+    if (result == HC_OK && recipe->cells && *map != NULL) {
+        hc_bake_cell_ratios(*map, ratios, j->field.width, j->field.height, recipe->cones,
+                            j->field.wrap);
+    }
+    if (result == HC_OK && !recipe->cells) {
+        *map = ratios;
+        return HC_OK;
+    }
+    free(ratios);
+    return result == HC_OK && *map == NULL ? HC_ERROR_MEMORY : result;
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+typedef struct plan {
+    int             map; /* NONE */
+    hc_trace_method method;
+    int             steps, refinements; /* refinements 0: the method has none */
+} plan;
+
+static hc_scene scene_of(const job *j, const plan *p)
+{
+    hc_scene scene = { .relief = { .field  = j->field,
+                                   .edge   = HC_EDGE_DISCARD,
+                                   .aspect = 1.0F,
+                                   .trace  = { .method      = p->method,
+                                               .steps       = p->steps,
+                                               .refinements = p->refinements } },
+                       .light  = { .no_shadows = true } };
+    if (p->map != NONE) {
+        scene.relief.trace.ratios = j->maps[p->map];
+        scene.relief.trace.cones  = recipes[p->map].cones;
+    }
+    return scene;
+}
+
+static const char *refine_word(int refinements)
+{
+    return refinements == -2   ? "none"
+           : refinements == -1 ? "secant"
+           : refinements > 0   ? "binary"
+                               : "";
+}
+
+static void report(const job *j, const plan *p, double seconds, int runs)
+{
+    const hc_render_figures  *f    = &j->picture.figures; /* of the view that compares */
+    const double              near = f->entered > 0 ? (double)f->entered : 1.0;
+    const hc_bench_render_row row  = { .field        = j->name,
+                                       .side         = j->field.width,
+                                       .map          = p->map == NONE ? "" : recipes[p->map].name,
+                                       .method       = hc_trace_method_name(p->method),
+                                       .refine       = refine_word(p->refinements),
+                                       .steps        = p->steps,
+                                       .runs         = runs,
+                                       .milliseconds = 1e3 * seconds,
+                                       .mean_steps   = f->mean_steps,
+                                       .mean_fetches = f->mean_fetches,
+                                       .lost         = (double)f->lost / near,
+                                       .made_up      = (double)f->made_up / near,
+                                       .unconverged  = (double)f->unconverged / near };
+    j->options->row_done(j->options->user, &row);
+}
+
+static hc_result measure(job *j, const plan *p)
+{
+    const hc_scene    scene   = scene_of(j, p);
+    const int         runs    = j->options->repeat > 0 ? j->options->repeat : REPEAT;
+    hc_render_options options = { .backend = j->options->backend, .threads = j->options->threads };
+    double            fastest = INFINITY;
+    hc_result         result  = HC_OK;
+    for (int i = 0; i < runs && result == HC_OK; i++) {
+        if (j->options->stop != NULL && j->options->stop()) {
+            return HC_ERROR_CANCELLED;
+        }
+        result  = hc_render(&j->picture, &scene, &options, j->log);
+        fastest = fmin(fastest, j->picture.figures.seconds);
+    }
+    options.view = HC_VIEW_MISSED;
+    result       = result == HC_OK ? hc_render(&j->picture, &scene, &options, j->log) : result;
+    if (result == HC_OK) {
+        report(j, p, fastest, runs);
+    }
+    return result;
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+static hc_result measure_table(job *j)
+{
+    static const int steps[]   = { 32, 200 };
+    static const int refines[] = { -2, -1, BINARY };
+    hc_result        result    = HC_OK;
+    for (int s = 0; s < 2; s++) {
+        for (int r = 0; r < 3; r++) {
+            for (int map = BRUTE; map <= QUICK_CENTRE && result == HC_OK; map++) {
+                const plan p = { map, map == RELAXED ? HC_TRACE_RELAXED : HC_TRACE_QUICK, steps[s],
+                                 refines[r] };
+                result       = measure(j, &p);
+            }
+        }
+    }
+    return result;
+}
+
+static hc_result measure_others(job *j)
+{
+    static const plan plans[] = {
+        { NONE, HC_TRACE_LINEAR, 32, 0 },        { NONE, HC_TRACE_RELIEF, 32, BINARY },
+        { NONE, HC_TRACE_OCCLUSION, 32, 0 },     { BRUTE, HC_TRACE_CONE_FIXED, 10, 0 },
+        { BRUTE, HC_TRACE_CONE_LOOP, 16, 0 },    { BRUTE, HC_TRACE_CONE_LOOP, 32, 0 },
+        { BRUTE, HC_TRACE_CONE_LOOP, 64, 0 },    { BRUTE, HC_TRACE_CONE_LOOP, 128, 0 },
+        { BRUTE, HC_TRACE_CONE_LOOP, 256, 0 },   { BRUTE, HC_TRACE_CONE_EXACT, 256, 0 },
+        { BRUTE, HC_TRACE_ROBUST, 200, BINARY }, { NONE, HC_TRACE_QDM, 0, 0 },
+        { NONE, HC_TRACE_MAXMIP, 0, 0 },         { DIAMOND, HC_TRACE_SAFE, 0, 0 },
+        { QUADRANT, HC_TRACE_SAFE, 0, 0 },
+    };
+    hc_result result = HC_OK;
+    for (size_t i = 0; i < sizeof plans / sizeof *plans && result == HC_OK; i++) {
+        result = measure(j, &plans[i]);
+    }
+    return result;
+}
+
+static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
+{
+    const hc_result filled =
+        hc_bench_fill_ground(j->heights, side, ground, j->options->seed, j->log);
+    if (filled != HC_OK) {
+        return filled;
+    }
+    j->name          = ground->name;
+    j->field         = (hc_field){ .heights = j->heights, .width = side, .height = side };
+    hc_result result = HC_OK;
+    for (int i = 0; i < MAPS && result == HC_OK; i++) {
+        result = bake(&j->maps[i], &recipes[i], j);
+    }
+    result = result == HC_OK ? measure_table(j) : result;
+    result = result == HC_OK ? measure_others(j) : result;
+    for (int i = 0; i < MAPS; i++) {
+        free(j->maps[i]);
+        j->maps[i] = NULL;
+    }
+    return result;
+}
+
+hc_result hc_bench_render(const hc_bench_render_options *options, hc_log *log)
+{
+    const bool sized  = options->width > 0;
+    job        j      = { .options = options,
+                          .log     = log,
+                          .picture = { .width  = sized ? options->width : WIDTH,
+                                       .height = sized ? options->height : HEIGHT } };
+    hc_result  result = HC_OK;
+    j.picture.rgb = malloc((size_t)j.picture.width * (size_t)j.picture.height * 3 * sizeof(float));
+    for (int i = 0; i < options->field_count && result == HC_OK; i++) {
+        for (int s = 0; s < options->side_count && result == HC_OK; s++) {
+            const size_t side = (size_t)options->sides[s];
+            j.heights         = malloc(side * side * sizeof *j.heights);
+            result            = j.heights == NULL || j.picture.rgb == NULL
+                                    ? HC_ERROR_MEMORY
+                                    : measure_field(&j, &options->fields[i], options->sides[s]);
+            free(j.heights);
+        }
+    }
+    free(j.picture.rgb);
+    return result;
+}
