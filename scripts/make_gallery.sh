@@ -42,4 +42,41 @@ relief relief data/jacksboro_fault_dem.pgm
 for body in cylinder sphere torus; do
     relief relief_$body $work/tile.npy --object $body --size 640x480
 done
+
+# The 2006 paper: its three marchers, with dark outlines where steps were too few; its map.
+low="--camera -0.9,-2.4,0.75 --at 0,-0.1,-0.1 --fov 40 --size 400x240"
+while read -r method steps; do
+    # shellcheck disable=SC2086 # the options are meant to be split
+    relief paper_$method $work/cobbles.npy --edge discard --depth 0.3 $low --method "$method" \
+        --steps "$steps"
+done <<'END'
+cone-fixed 10
+cone-loop 20
+cone-exact 256
+END
+$program bake $work/tile.npy $work/dummer.png --layout dummer --wrap uv --overwrite -q
+$program show $work/dummer.png --out $gallery/paper_map.png --overwrite -q
+
+# The 2022 paper: what quick maps give away, and what does not converge on them in 20 steps.
+for method in exact quick quick-improved quick-naive-centre quick-centre; do
+    $program bake $work/cobbles.npy $work/$method.exr --wrap uv --method $method --max-ratio 1 \
+        --overwrite -q
+done
+for method in quick quick-improved; do
+    $program compare $work/exact.exr $work/$method.exr --diff $gallery/less_in_$method.png \
+        --overwrite -q >/dev/null
+done
+for method in quick quick-improved quick-naive-centre quick-centre; do
+    relief unconverged_$method $work/$method.exr --edge discard --method quick --steps 20 \
+        --view unconverged --shadows off --size 400x267
+done
+
+# Steps, and what is lost.
+relief steps_safe $work/cobbles.npy --edge discard --view steps --top 40 --size 400x267
+relief steps_maxmip $work/cobbles.npy --edge discard --view steps --top 40 --size 400x267 \
+    --method maxmip
+relief missed_cone-fixed $work/cobbles.npy --edge discard --method cone-fixed --view missed \
+    --size 400x267
+relief error_cone-fixed $work/cobbles.npy --edge discard --method cone-fixed --view error \
+    --size 400x267
 ls $gallery/*.png
