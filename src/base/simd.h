@@ -707,13 +707,6 @@ static inline hc_i hc_v_bits(hc_v a)
     return bits;
 }
 
-static inline hc_v hc_v_lookup(const float *table, hc_i index)
-{
-    int32_t bits[HC_LANES];
-    memcpy(bits, table, sizeof bits);
-    return hc_v_of_bits(hc_i_lookup(bits, index));
-}
-
 /* At most the square root of a >= 0, and at least (1 - 2^-9) of it. */
 static inline hc_v hc_v_about_sqrt(hc_v a)
 {

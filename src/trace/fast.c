@@ -19,9 +19,6 @@
  * reach across it. */
 enum { COARSEST = 6, PAGE = 1 << 21 };
 
-/* Blocks that a step must have crossed for the next one to try the coarser level. */
-static const float RISE = 2.0F;
-
 /* Rays begin on this level. */
 enum { FIRST_LEVEL = 1 };
 
@@ -89,13 +86,11 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
         const int high  = (fast->y.cells + width - 1) / width + 1;
         fast->stride[k] = wide;
         fast->start[k]  = (int32_t)blocks;
-        fast->rise[k]   = RISE * (float)width;
         blocks += (size_t)wide * rows_of(high, HC_FAST_BLOCK_BITS);
     } while ((side + width - 1) / width > COARSEST);
-    fast->rise[fast->levels - 1] = INFINITY;
-    fast->first_level            = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
-    fast->blur                   = 0x1p-21F * (float)side;
-    fast->stride_heights         = fast->x.cells + 1;
+    fast->first_level    = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
+    fast->blur           = 0x1p-21F * (float)side;
+    fast->stride_heights = fast->x.cells + 1;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
                      blocks };
 }

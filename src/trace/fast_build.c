@@ -34,7 +34,9 @@ typedef struct builder {
     int            field_width;
     level          levels[HC_FAST_LEVELS];
     float         *steepest; /* of each row of cells: largest difference of neighbouring samples */
+    int           *stops;    /* of each row of the finest blocks: stop_free's count */
     int            current;
+    bool           sparse;
 } builder;
 
 static float larger(float a, float b)
@@ -124,18 +126,26 @@ static void diagonal_top(float *highest, const float *tops, ptrdiff_t dx, ptrdif
 }
 
 /* Steepest slope from each of TILE blocks to diagonals first .. DIAGONALS; a diagonal of blocks as
- * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. */
-static void near_slopes(float *slopes, const float *tops, ptrdiff_t dx, ptrdiff_t dy, int side,
-                        int first, float least)
+ * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways` counts the diagonals
+ * up to which none is higher than the block. */
+static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t dx, ptrdiff_t dy,
+                        int side, int first, float least)
 {
     float highest[TILE];
+    float open[TILE];
     memset(slopes, 0, TILE * sizeof *slopes);
+    for (int x = 0; x < TILE; x++) {
+        open[x] = 1.0F;
+        ways[x] = 0.0F;
+    }
     for (int m = first; m <= DIAGONALS; m++) {
         const float distance = larger((float)((m - 2) * side + 2), least);
         const float weight   = 1.0F / distance;
         diagonal_top(highest, tops, dx, dy, m);
         for (int x = 0; x < TILE; x++) {
             slopes[x] = larger(slopes[x], (highest[x] - tops[x]) * weight);
+            open[x]   = highest[x] > tops[x] ? 0.0F : open[x];
+            ways[x] += open[x];
         }
     }
 }
@@ -171,6 +181,7 @@ static void far_row(void *context, int y, int worker)
     const level   *l     = &b->levels[b->current];
     const float    least = 0.75F * (float)l->side + 2.0F;
     float          slopes[TILE];
+    float          unused[TILE];
     (void)worker;
     for (int x = 0; x < l->width; x += TILE) {
         const float *tops  = l->tops + (size_t)y * l->pitch + x;
@@ -179,7 +190,7 @@ static void far_row(void *context, int y, int worker)
         for (int q = 0; q < 4; q++) {
             const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
             const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            near_slopes(slopes, tops, dx, dy, l->side, 2, least);
+            near_slopes(slopes, unused, tops, dx, dy, l->side, 2, least);
             add_far(slopes, b, b->current, x, y, q, count);
             for (int i = 0; i < count; i++) {
                 out[4 * i + q] = slopes[i];
@@ -188,23 +199,25 @@ static void far_row(void *context, int y, int worker)
     }
 }
 
-static float decode(uint8_t code)
+static float decode(bool sparse, uint8_t code)
 {
-    const uint32_t bits = ((uint32_t)code << HC_FAST_SLOPE_SHIFT) + (uint32_t)HC_FAST_SLOPE_BIAS;
+    const uint32_t bits = sparse ? ((uint32_t)(code >> HC_FAST_FREE_BITS) << HC_FAST_SPARSE_SHIFT)
+                                       + HC_FAST_SPARSE_BIAS
+                                 : ((uint32_t)code << HC_FAST_SLOPE_SHIFT) + HC_FAST_SLOPE_BIAS;
     float          slope;
     memcpy(&slope, &bits, sizeof slope);
     return slope;
 }
 
 /* The least code whose slope is not below. */
-static uint8_t encode(float slope)
+static uint8_t encode(float slope, int shift, int bias, int most)
 {
     const float padded = slope * (1.0F + 0x1p-12F);
     int32_t     bits;
     memcpy(&bits, &padded, sizeof bits);
-    const int32_t above = bits - HC_FAST_SLOPE_BIAS + (1 << HC_FAST_SLOPE_SHIFT) - 1;
-    const int32_t code  = above < 0 ? 0 : above >> HC_FAST_SLOPE_SHIFT;
-    return (uint8_t)(code > 255 ? 255 : code);
+    const int32_t above = bits - bias + (1 << shift) - 1;
+    const int32_t code  = above < 0 ? 0 : above >> shift;
+    return (uint8_t)(code > most ? most : code);
 }
 
 static uint8_t slope_of(const builder *b, int k, int x, int y, int quadrant)
@@ -229,19 +242,40 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
         const uint8_t c = slope_of(b, k - 1, edge_x, j, quadrant);
         code            = c > code ? c : code;
     }
-    return decode(code);
+    return decode(b->sparse, code);
 }
 
 /* A ray may be up to three blurs from where it is marched: what stands there is seen with this weight
- * from any quadrant. */
-static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4])
+ * from any quadrant. The way to what stands near it, on sparse ground, is not known: there it counts
+ * with the steepest of all. */
+static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4],
+                        const float ways[4])
 {
     const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
     const float blur     = b->fast->blur;
-    block->top           = top + 6.0F * blur * steepest + CLEARANCE;
+    const float raise    = b->sparse ? b->fast->slack : 6.0F * blur * steepest + CLEARANCE;
+    block->top           = top + raise;
     for (int q = 0; q < 4; q++) {
-        block->slopes[q] = encode(slopes[q] + 3.0F * blur * steepest);
+        const float slope = slopes[q] + 3.0F * blur * steepest;
+        if (b->sparse) {
+            const uint8_t code = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
+            const int     far  = ways[q] > 1.0F ? (int)ways[q] - 1 : 0;
+            block->slopes[q]   = (uint8_t)(code << HC_FAST_FREE_BITS | far);
+        } else {
+            block->slopes[q] = encode(slope, HC_FAST_SLOPE_SHIFT, HC_FAST_SLOPE_BIAS, 255);
+        }
     }
+}
+
+/* Blocks with something high behind a wide free way: there cones are narrow, and the way is not. */
+static int stop_free(const builder *b, const float *slopes, const float *ways, int count)
+{
+    const float high  = 0.25F * (float)b->fast->highest;
+    int         stops = 0;
+    for (int i = 0; i < count; i++) {
+        stops += ways[i] >= 3.0F && slopes[i] * (ways[i] * BASE) >= high;
+    }
+    return stops;
 }
 
 static void block_row(void *context, int y, int worker)
@@ -250,6 +284,8 @@ static void block_row(void *context, int y, int worker)
     const int      k               = b->current;
     const level   *l               = &b->levels[k];
     float          slopes[4][TILE] = { { 0.0F } };
+    float          ways[4][TILE]   = { { 0.0F } };
+    int            stops           = 0;
     hc_fast_block *row             = l->blocks + hc_fast_block_at(b->fast, k, 0, y);
     (void)worker;
     for (int x = 0; x < l->width; x += TILE) {
@@ -258,16 +294,18 @@ static void block_row(void *context, int y, int worker)
         for (int q = 0; q < 4 && !b->fast->steps; q++) {
             const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
             const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            near_slopes(slopes[q], tops, dx, dy, l->side, 1, 1.0F);
+            near_slopes(slopes[q], ways[q], tops, dx, dy, l->side, 1, 1.0F);
             add_far(slopes[q], b, k, x, y, q, count);
+            stops += stop_free(b, slopes[q], ways[q], count);
         }
         for (int i = 0; i < count; i++) {
-            float slope[4];
+            float       slope[4];
+            const float way[4] = { ways[0][i], ways[1][i], ways[2][i], ways[3][i] };
             for (int q = 0; q < 4; q++) {
                 const float child = k == 0 ? slopes[q][i] : child_slope(b, k, x + i, y, q);
                 slope[q]          = child < slopes[q][i] ? child : slopes[q][i];
             }
-            store_block(b, &row[(x + i) << HC_FAST_BLOCK_BITS], tops[i], slope);
+            store_block(b, &row[(x + i) << HC_FAST_BLOCK_BITS], tops[i], slope, way);
         }
     }
     row[l->width << HC_FAST_BLOCK_BITS] = row[(l->width - 1) << HC_FAST_BLOCK_BITS];
@@ -276,6 +314,9 @@ static void block_row(void *context, int y, int worker)
         for (int x = 0; x <= l->width; x++) {
             more[x << HC_FAST_BLOCK_BITS] = row[x << HC_FAST_BLOCK_BITS];
         }
+    }
+    if (k == 0) {
+        b->stops[y] = stops;
     }
 }
 
@@ -286,20 +327,44 @@ static hc_result run(builder *b, int k, hc_parallel_body body, int rows, int thr
                            log);
 }
 
-static void fill(builder *b, int threads, hc_log *log)
+static float steepest_of(const builder *b)
 {
-    const int levels = b->fast->levels;
-    (void)run(b, 0, copy_heights, b->fast->y.cells + 1, threads, log);
+    float steepest = 0.0F;
+    for (int y = 0; y <= b->fast->y.cells; y++) {
+        steepest = larger(steepest, b->steepest[y]);
+    }
+    return steepest;
+}
+
+/* Ground is sparse if a quarter of the ways over it are free and then stopped. */
+static bool is_sparse(const builder *b)
+{
+    const level *l     = &b->levels[0];
+    size_t       stops = 0;
+    for (int y = 0; y < l->height; y++) {
+        stops += (size_t)b->stops[y];
+    }
+    return stops >= (size_t)l->width * (size_t)l->height;
+}
+
+static void fill(builder *b, hc_fast *fast, int threads, hc_log *log)
+{
+    const int levels = fast->levels;
+    (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
+    fast->slack = 6.0F * fast->blur * steepest_of(b) + CLEARANCE;
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     for (int k = 1; k < levels; k++) {
         (void)run(b, k, top_blocks, b->levels[k].height, threads, log);
     }
-    for (int k = levels - 1; k > 0 && !b->fast->steps; k--) {
+    for (int k = levels - 1; k > 0 && !fast->steps; k--) {
         (void)run(b, k, far_row, b->levels[k].height, threads, log);
     }
-    for (int k = 0; k < levels; k++) {
+    (void)run(b, 0, block_row, b->levels[0].height, threads, log);
+    b->sparse = is_sparse(b);
+    for (int k = b->sparse ? 0 : 1; k < levels; k++) {
         (void)run(b, k, block_row, b->levels[k].height, threads, log);
     }
+    fast->sparse = b->sparse;
 }
 
 static bool take_level(level *l, const hc_fast *fast, int k)
@@ -323,27 +388,24 @@ static bool take_level(level *l, const hc_fast *fast, int k)
 
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log)
 {
-    const int rows  = fast->y.cells + 1;
-    builder   b     = { .fast        = fast,
-                        .heights     = field->heights,
-                        .field_width = field->width,
-                        .steepest    = malloc((size_t)rows * sizeof(float)) };
-    bool      taken = b.steepest != NULL;
+    const size_t rows  = (size_t)fast->y.cells + 1;
+    builder      b     = { .fast        = fast,
+                           .heights     = field->heights,
+                           .field_width = field->width,
+                           .steepest    = malloc(rows * sizeof(float)),
+                           .stops       = malloc(rows * sizeof(int)) };
+    bool         taken = b.steepest != NULL && b.stops != NULL;
     for (int k = 0; k < fast->levels; k++) {
         taken = take_level(&b.levels[k], fast, k) && taken;
     }
     if (taken) {
-        fill(&b, threads, log);
-        float steepest = 0.0F;
-        for (int y = 0; y < rows; y++) {
-            steepest = larger(steepest, b.steepest[y]);
-        }
-        fast->slack = 6.0F * fast->blur * steepest + CLEARANCE;
+        fill(&b, fast, threads, log);
     }
     for (int k = 0; k < fast->levels; k++) {
         free(b.levels[k].frame);
         free(b.levels[k].far);
     }
     free(b.steepest);
+    free(b.stops);
     return taken ? HC_OK : hc_fail(log, HC_ERROR_MEMORY, "no memory for building a caster");
 }

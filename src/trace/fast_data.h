@@ -18,6 +18,10 @@ enum { HC_FAST_SLOPE_SHIFT = 20, HC_FAST_SLOPE_BIAS = 97 << 23 };
  * blocks. */
 enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 1 };
 
+/* Where few things stand on a flat ground a slope is a power of two, four bits from 2^-11 to 2^4, and
+ * the other four say how far nothing beyond the block is higher than it: so many times its side. */
+enum { HC_FAST_SPARSE_SHIFT = 23, HC_FAST_SPARSE_BIAS = 116 << 23, HC_FAST_FREE_BITS = 4 };
+
 /* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,
  * -u +v, +u -v, -u -v), within which the surface beyond the block stays below a cone around it. */
 typedef struct hc_fast_block {
@@ -41,12 +45,12 @@ struct hc_fast {
     double         scale_z, shift_z; /* normalised height of a ray's height */
     double         highest;
     bool           steps, open_sides;
+    bool           sparse; /* few things on a flat ground */
     hc_isa         isa;
     int            levels, first_level;   /* where marching begins */
     int32_t        stride[16], start[16]; /* of the levels' blocks; 16 for one vector register  */
-    float          rise[16]; /* longer steps, in cells, are followed by one on the next level   */
-    float          blur;     /* [cells] by which marching may misplace a ray                    */
-    float          slack;    /* [height] by which the surface may rise on thrice that way       */
+    float          blur;  /* [cells] by which marching may misplace a ray                    */
+    float          slack; /* [height] by which the surface may rise on thrice that way       */
     int            stride_heights;
     float         *heights; /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner            */
     hc_fast_block *blocks;  /* all levels, the finest first; each has one more at the ends of its

@@ -23,28 +23,74 @@ typedef struct trials {
 typedef struct verdict {
     double  t[HC_LANES];
     float   u[HC_LANES], v[HC_LANES], height[HC_LANES];
+    float   s[HC_LANES]; /* clear: up to there */
     int32_t hit[HC_LANES], clear[HC_LANES];
+    int32_t cell_x[HC_LANES], cell_y[HC_LANES]; /* that is hit */
 } verdict;
 
-typedef struct passage {
-    double enter[HC_LANES], leave[HC_LANES];
-} passage;
+/* Cells on their own: the first root, and when and through which side the ray leaves. */
+typedef struct test {
+    double  t[HC_LANES], leave[HC_LANES];
+    int32_t hit[HC_LANES], open[HC_LANES];
+    int32_t across[HC_LANES]; /* leaves along v */
+} test;
 
-/* A ray that runs along the cell without being in it never enters. */
-static inline void cut_to_cells(passage *way, const double *origin, const double *direction,
-                                const double *inverse, const int32_t *cells)
+typedef struct slab {
+    double enter[HC_LANES], leave[HC_LANES];
+} slab;
+
+/* A ray that runs along the cells without being in them never enters. */
+static inline void cut_slab(slab *way, const batch *b, int axis, const int32_t *cells)
 {
     for (int i = 0; i < HC_LANES; i++) {
-        const double cell  = cells[i];
-        const double low   = (cell - origin[i]) * inverse[i];
-        const double high  = (cell + 1.0 - origin[i]) * inverse[i];
-        const bool   along = direction[i] == 0.0;
-        const bool   in    = (origin[i] >= cell) & (origin[i] < cell + 1.0);
-        const bool   up    = direction[i] > 0.0;
-        const double first = up ? low : high;
-        const double last  = up ? high : low;
-        way->enter[i]      = greater(way->enter[i], along ? (in ? -INFINITY : INFINITY) : first);
-        way->leave[i]      = lesser(way->leave[i], along ? INFINITY : last);
+        const double origin    = b->origin[axis][i];
+        const double direction = b->direction[axis][i];
+        const double cell      = cells[i];
+        const double low       = (cell - origin) * b->inverse[axis][i];
+        const double high      = (cell + 1.0 - origin) * b->inverse[axis][i];
+        const bool   along     = direction == 0.0;
+        const bool   in        = (origin >= cell) & (origin < cell + 1.0);
+        const bool   up        = direction > 0.0;
+        const double first     = up ? low : high;
+        const double last      = up ? high : low;
+        way->enter[i]          = along ? (in ? -INFINITY : INFINITY) : first;
+        way->leave[i]          = along ? INFINITY : last;
+    }
+}
+
+/* `begin` is where the ray is known to be in the open, in cells gone sideways since t = 0. */
+static inline void test_cells(const hc_fast *fast, const batch *b, const int32_t *cell_x,
+                              const int32_t *cell_y, const double *begin, test *out)
+{
+    slab          x;
+    slab          y;
+    float         corner[4][HC_LANES];
+    const corners h = find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
+    hc_v_store(corner[0], h.h00);
+    hc_v_store(corner[1], h.h10);
+    hc_v_store(corner[2], h.h01);
+    hc_v_store(corner[3], h.h11);
+    cut_slab(&x, b, 0, cell_x);
+    cut_slab(&y, b, 1, cell_y);
+    for (int i = 0; i < HC_LANES; i++) {
+        const patch     p     = { (double)corner[0][i], (double)corner[1][i], (double)corner[2][i],
+                                  (double)corner[3][i] };
+        const double    dx    = b->direction[0][i];
+        const double    dy    = b->direction[1][i];
+        const double    dz    = b->direction[2][i];
+        const double    enter = greater(b->from[i], greater(x.enter[i], y.enter[i]));
+        const double    leave = lesser(b->to[i], lesser(x.leave[i], y.leave[i]));
+        const quadratic q     = gap_on(&p, b->origin[0][i] + enter * dx - (double)cell_x[i],
+                                       b->origin[1][i] + enter * dy - (double)cell_y[i],
+                                       b->origin[2][i] + enter * dz, dx, dy, dz);
+        const double    t     = enter + first_root(q);
+        const double    run   = fabs(dx) + fabs(dy);
+        const int32_t   in    = (begin[i] >= enter * run) & (q.c > 0.0) & (leave >= enter);
+        out->t[i]             = t;
+        out->leave[i]         = leave;
+        out->hit[i]           = in & (t <= leave) & (t <= (double)FLT_MAX);
+        out->open[i]          = in & (t > leave);
+        out->across[i]        = y.leave[i] < x.leave[i];
     }
 }
 
@@ -56,44 +102,69 @@ static inline void place_hits(float *out, const hc_fast_axis *axis, const double
     }
 }
 
+/* The next cells of those that are open; any cell for the others. Returns which have one. */
+static inline unsigned next_cells(const hc_fast *fast, const batch *b, const test *first,
+                                  verdict *v)
+{
+    float more[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        const int32_t step_x = b->direction[0][i] > 0.0 ? 1 : -1;
+        const int32_t step_y = b->direction[1][i] > 0.0 ? 1 : -1;
+        const int32_t x      = v->cell_x[i] + (first->across[i] != 0 ? 0 : step_x);
+        const int32_t y      = v->cell_y[i] + (first->across[i] != 0 ? step_y : 0);
+        const int32_t on =
+            (first->open[i] != 0) & (x >= 0) & (x < fast->x.cells) & (y >= 0) & (y < fast->y.cells);
+        v->cell_x[i] = on != 0 ? x : v->cell_x[i];
+        v->cell_y[i] = on != 0 ? y : v->cell_y[i];
+        more[i]      = on != 0 ? 1.0F : 0.0F;
+    }
+    return hc_v_greater(hc_v_load(more), hc_v_set(0.0F));
+}
+
+/* An open cell is followed by the next one, so that a lane that stands on a wall gets away from it. It
+ * goes on a hair behind the wall: there the ray rises faster than the ground, or what the marching
+ * allows for rounding is more than the ground rises. */
+static inline void test_next(const hc_fast *fast, const batch *b, const trials *c,
+                             const test *first, verdict *v)
+{
+    test           next;
+    double         begin[HC_LANES];
+    const unsigned on = next_cells(fast, b, first, v);
+    for (int i = 0; i < HC_LANES; i++) {
+        begin[i] = first->leave[i] * (fabs(b->direction[0][i]) + fabs(b->direction[1][i]));
+    }
+    test_cells(fast, b, v->cell_x, v->cell_y, begin, &next);
+    for (int i = 0; i < HC_LANES; i++) {
+        const double  run  = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
+        const double  way  = (next.leave[i] - c->from[i]) * run;
+        const float   s    = (float)(way * (1.0 + 0x1p-22)); /* not before */
+        const int32_t also = (int32_t)(on >> i & 1);
+        v->s[i]            = s;
+        v->clear[i]        = also & next.open[i] & (s > c->s[i] + 0.25F * fast->blur);
+        v->t[i]            = (also & next.hit[i]) != 0 ? next.t[i] : v->t[i];
+        v->hit[i] |= also & next.hit[i];
+    }
+}
+
 static inline void decide_cells(const hc_fast *fast, const batch *b, const trials *c, verdict *v)
 {
-    passage       way;
-    float         corner[4][HC_LANES];
-    const corners h = find_corners(fast, hc_i_load(c->cell_x), hc_i_load(c->cell_y), 0xffff);
-    hc_v_store(corner[0], h.h00);
-    hc_v_store(corner[1], h.h10);
-    hc_v_store(corner[2], h.h01);
-    hc_v_store(corner[3], h.h11);
-    memcpy(way.enter, b->from, sizeof way.enter);
-    memcpy(way.leave, b->to, sizeof way.leave);
-    cut_to_cells(&way, b->origin[0], b->direction[0], b->inverse[0], c->cell_x);
-    cut_to_cells(&way, b->origin[1], b->direction[1], b->inverse[1], c->cell_y);
-    const double blur  = 6.0 * (double)fast->blur;
-    const double slack = (double)fast->slack;
+    test    first;
+    double  begin[HC_LANES];
+    int32_t any_open = 0;
     for (int i = 0; i < HC_LANES; i++) {
-        const patch     p     = { (double)corner[0][i], (double)corner[1][i], (double)corner[2][i],
-                                  (double)corner[3][i] };
-        const double    dx    = b->direction[0][i];
-        const double    dy    = b->direction[1][i];
-        const double    dz    = b->direction[2][i];
-        const double    enter = way.enter[i];
-        const double    leave = way.leave[i];
-        const quadratic q     = gap_on(&p, b->origin[0][i] + enter * dx - (double)c->cell_x[i],
-                                       b->origin[1][i] + enter * dy - (double)c->cell_y[i],
-                                       b->origin[2][i] + enter * dz, dx, dy, dz);
-        const double    t     = enter + first_root(q);
-        const double    last  = leave - enter;
-        const double    gap   = q.c + last * (q.b + last * q.a);
-        const double    run   = fabs(dx) + fabs(dy);
-        const double    begin = c->from[i] * run + (double)c->s[i];
-        const double    end   = begin + (double)c->span[i];
-        /* the lane was in the cell all the time, and above the surface when it came in */
-        const int32_t in   = (begin >= enter * run) & (q.c > 0.0) & (leave >= enter);
-        const int32_t left = (leave * run >= end - blur) & ((gap - slack) * run > blur * fabs(dz));
-        v->t[i]            = t;
-        v->hit[i]          = in & (t <= leave) & (t <= (double)FLT_MAX);
-        v->clear[i]        = in & left & (t > leave);
+        begin[i] =
+            c->from[i] * (fabs(b->direction[0][i]) + fabs(b->direction[1][i])) + (double)c->s[i];
+    }
+    test_cells(fast, b, c->cell_x, c->cell_y, begin, &first);
+    memcpy(v->t, first.t, sizeof v->t);
+    memcpy(v->hit, first.hit, sizeof v->hit);
+    memcpy(v->cell_x, c->cell_x, sizeof v->cell_x);
+    memcpy(v->cell_y, c->cell_y, sizeof v->cell_y);
+    for (int i = 0; i < HC_LANES; i++) {
+        any_open |= first.open[i];
+    }
+    if (any_open != 0) {
+        test_next(fast, b, c, &first, v);
     }
     place_hits(v->u, &fast->x, b->origin[0], b->direction[0], v->t);
     place_hits(v->v, &fast->y, b->origin[1], b->direction[1], v->t);

@@ -335,8 +335,8 @@ static void answer_trial(const job *j, const verdict *v, int i)
                                             .u         = v->u[i],
                                             .v         = v->v[i],
                                             .height    = v->height[i],
-                                            .cell_x    = c->cell_x[i] + j->fast->x.first,
-                                            .cell_y    = c->cell_y[i] + j->fast->y.first,
+                                            .cell_x    = v->cell_x[i] + j->fast->x.first,
+                                            .cell_y    = v->cell_y[i] + j->fast->y.first,
                                             .steps     = (uint32_t)c->steps[i],
                                             .crossings = (uint32_t)c->crossings[i] };
 }
@@ -352,18 +352,18 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
         (void)take_ray(&r, j->fast, b, i);
         hit = walk_trial(j, &r, i);
     }
+    const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
     if (c->lane[i] >= 0) {
         pack          *p    = &j->packs[c->lane[i] / HC_LANES];
         const int      lane = c->lane[i] % HC_LANES;
         const unsigned bit  = 1U << lane;
         p->held &= ~bit;
         p->active &= ~(hit ? bit : 0U);
-        p->s[lane] += c->span[i];
+        p->s[lane] = s;
         p->ray.crossings[lane]++;
     } else if (!hit) {
         const double run = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
-        leave_over(j, c->which[i], c->from[i] + ((double)c->s[i] + (double)c->span[i]) / run,
-                   c->steps[i], c->crossings[i]);
+        leave_over(j, c->which[i], c->from[i] + (double)s / run, c->steps[i], c->crossings[i]);
     }
 }
 
@@ -487,12 +487,12 @@ static inline void see_to(job *j, pack *p)
 }
 
 /* Not those at the end: how often a ray is marched must not depend on when it is seen to. */
-static inline void march_all(job *j, bool steps)
+static inline void march_all(job *j, ground kind)
 {
     for (int k = 0; k < PACKS; k++) {
         pack          *p      = &j->packs[k];
         const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
-        march(j->fast, p, p->active & ~p->near & ~p->held & before, steps);
+        march(j->fast, p, p->active & ~p->near & ~p->held & before, kind);
     }
 }
 
@@ -527,9 +527,11 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
             continue;
         }
         if (fast->steps) {
-            march_all(&j, true);
+            march_all(&j, GROUND_STEPS);
+        } else if (fast->sparse) {
+            march_all(&j, GROUND_SPARSE);
         } else {
-            march_all(&j, false);
+            march_all(&j, GROUND_PATCHES);
         }
     }
 }

@@ -115,9 +115,44 @@ static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
     return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
 }
 
+/* What of the ground the marching has to see to; always constant, so that each has its own code. */
+typedef enum ground { GROUND_PATCHES, GROUND_SPARSE, GROUND_STEPS } ground;
+
+/* s that a ray goes from where it leaves its block, at most: on to the cone around the block, or,
+ * on sparse ground, as far as nothing is higher than the block. `down` is its fall per s. */
+static inline hc_v go_beyond(const hc_fast *fast, hc_i code, hc_i shift, hc_v above, hc_v down,
+                             ground kind)
+{
+    if (kind == GROUND_STEPS) {
+        return hc_v_set(0.0F);
+    }
+    const bool sparse = kind == GROUND_SPARSE;
+    const hc_i number = sparse ? hc_i_right(code, hc_i_set(HC_FAST_FREE_BITS)) : code;
+    const hc_i digits = hc_i_set(sparse ? HC_FAST_SPARSE_SHIFT : HC_FAST_SLOPE_SHIFT);
+    const hc_i bias   = hc_i_set(sparse ? HC_FAST_SPARSE_BIAS : HC_FAST_SLOPE_BIAS);
+    const hc_v slope  = hc_v_of_bits(hc_i_add(hc_i_left(number, digits), bias));
+    const hc_v least  = hc_v_set(0x1p-60F);
+    const hc_v cone   = hc_v_about_over(above, hc_v_max(hc_v_add(slope, down), least));
+    if (!sparse) {
+        return cone;
+    }
+    const hc_i blocks = hc_i_and(code, hc_i_set((1 << HC_FAST_FREE_BITS) - 1));
+    const hc_v way = hc_v_sub(hc_v_from_i(hc_i_left(blocks, shift)), hc_v_set(4.0F * fast->blur));
+    return hc_v_max(cone, hc_v_min(way, hc_v_about_over(above, hc_v_max(down, least))));
+}
+
+/* The level after a step. */
+static inline hc_i level_after(const hc_fast *fast, hc_v step, hc_i level, ground kind)
+{
+    const hc_i bias = hc_i_set(kind == GROUND_SPARSE ? -LEVEL_BIAS - 1 : -LEVEL_BIAS);
+    const hc_i fit  = hc_i_add(hc_i_right(hc_v_bits(step), hc_i_set(24)), bias);
+    const hc_i most = hc_i_min(hc_i_add(level, hc_i_set(1)), hc_i_set(fast->levels - 1));
+    return hc_i_min(hc_i_max(fit, hc_i_set(0)), most);
+}
+
 /* One block further, or one level deeper, for the lanes in `active`. Those that stand on a single
- * cell and may hit it do not move, and become `near`. */
-static inline void march(const hc_fast *fast, pack *p, unsigned active, bool steps)
+ * cell and may hit it become `near`. */
+static inline void march(const hc_fast *fast, pack *p, unsigned active, ground kind)
 {
     const place at      = find_place(p);
     const hc_i  level   = hc_i_load(p->level);
@@ -131,35 +166,30 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, bool ste
     hc_i top_bits, codes;
     hc_gather_pairs(&top_bits, &codes, fast->blocks, index, active);
     const hc_i code  = hc_i_and(hc_i_right(codes, hc_i_load(p->ray.quadrant)), hc_i_set(255));
-    const hc_v slope = hc_v_of_bits(
-        hc_i_add(hc_i_left(code, hc_i_set(HC_FAST_SLOPE_SHIFT)), hc_i_set(HC_FAST_SLOPE_BIAS)));
     const hc_v top   = hc_v_of_bits(top_bits);
     const hc_v dz    = hc_v_load(p->ray.dz);
     const hc_v leave = hc_v_about_muladd(out, dz, at.z);
+    const hc_v down  = hc_v_sub(hc_v_set(0.0F), dz);
 
+    const bool     steps  = kind == GROUND_STEPS;
     const unsigned unsure = steps ? find_unsure(fast, p, &at, block_x, block_y, shift, out) : 0;
     const unsigned clear  = hc_v_greater(hc_v_min(at.z, leave), top) & active & ~unsure;
-    const hc_v     fall  = hc_v_max(hc_v_sub(slope, dz), hc_v_set(0x1p-60F)); /* towards the cone */
-    const hc_v     cone  = steps ? hc_v_set(0.0F) : hc_v_about_over(hc_v_sub(leave, top), fall);
-    const hc_v     down  = hc_v_max(hc_v_sub(hc_v_set(0.0F), dz), hc_v_set(0x1p-60F));
-    const hc_v     part  = hc_v_about_over(hc_v_sub(at.z, top), down); /* to the top's height */
-    const unsigned above = hc_v_greater(at.z, top) & active & ~clear & ~unsure;
-    const hc_v     step  = hc_v_pick(above, part, hc_v_add(out, cone));
-    hc_v_store(p->s, hc_v_pick(clear | above, hc_v_add(at.s, step), at.s));
+    const unsigned sinks  = hc_v_greater(at.z, top) & active & ~unsure & ~clear;
+    const hc_v     beyond = go_beyond(fast, code, shift, hc_v_sub(leave, top), down, kind);
+    const hc_v     part = hc_v_about_over(hc_v_sub(at.z, top), hc_v_max(down, hc_v_set(0x1p-60F)));
+    const hc_v     step = hc_v_pick(sinks, part, hc_v_add(out, beyond));
+    hc_v_store(p->s, hc_v_pick(clear | sinks, hc_v_add(at.s, step), at.s));
 
     const unsigned coarse = hc_i_differ(level, hc_i_set(0));
     const unsigned deeper = active & ~clear & coarse;
     const unsigned near   = active & ~clear & ~coarse;
+    const hc_i     next   = level_after(fast, step, level, kind);
     hc_v_store(p->until, hc_v_pick(near, hc_v_add(at.s, out), hc_v_load(p->until)));
-    p->near |= near;
-
-    const hc_i one  = hc_i_set(1);
-    const hc_i most = hc_i_set(fast->levels - 1);
-    const hc_i fit  = hc_i_max(
-         hc_i_add(hc_i_right(hc_v_bits(step), hc_i_set(24)), hc_i_set(-LEVEL_BIAS)), hc_i_set(0));
-    const hc_i next = hc_i_min(fit, hc_i_min(hc_i_add(level, one), most));
     hc_i_store(p->level,
                hc_i_pick(deeper, hc_i_add(level, hc_i_set(-1)), hc_i_pick(clear, next, level)));
+    p->near |= near;
+
+    const hc_i one       = hc_i_set(1);
     const hc_i steps_now = hc_i_load(p->ray.steps);
     const hc_i moves     = hc_i_load(p->ray.crossings);
     hc_i_store(p->ray.steps, hc_i_pick(active, hc_i_add(steps_now, one), steps_now));
