@@ -772,5 +772,5 @@ int hc_steps_for(float distance_, float near, float far, int most, int least)
  * with it, and the slopes, and there is no seam where a plain polygon takes over. */
 float hc_fade(float distance_, float near, float far)
 {
-    return 1.0 - smoothstep(near, far, distance_);
+    return 1.0 - smoothstep(near, max(far, near + 1e-6), distance_);
 }

@@ -22,6 +22,8 @@ uniform vec2  u_depth_range; /* near and far plane */
 uniform int   u_body;
 uniform bool  u_discard;         /* plane: only rays through the top face */
 uniform float u_depth;           /* of the relief, in the world */
+uniform vec2  u_fade;            /* distances where it begins to sink into the hull, and is gone; y 0:
+                                    never */
 uniform float u_radius, u_ring;  /* of the hull; of the circle a torus goes along */
 uniform vec2  u_half;            /* half sides of the plane; y: half the cylinder's height */
 uniform vec2  u_repeat;          /* tiles */
@@ -42,8 +44,12 @@ layout(location = 0) out vec4 o_light;  /* linear rgb; distance along the ray, H
 layout(location = 1) out vec4 o_normal; /* xyz in the world; height of the hit */
 layout(location = 2) out vec4 o_counts; /* steps, texels read, came to the hull, ran out of steps */
 
+/* The relief's depth as this pixel sees it. */
+float relief_depth;
+
 #define PI 3.14159265358979
 #define SUN_AWAY 8.0
+#define FLATTEST (1.0 / 1024.0) /* of faded relief: there is still something to divide by */
 
 /* Pieces of a bent ray are nowhere farther than this from it, in depths of the relief; nor shorter
  * than on this radius. */
@@ -91,7 +97,7 @@ float from_core(vec3 point)
 vec3 place_of(vec3 point)
 {
     if (u_body == PLANE) {
-        return vec3(u_repeat * (0.5 + vec2(0.5, -0.5) * point.xy / u_half), 1.0 + point.z / u_depth);
+        return vec3(u_repeat * (0.5 + vec2(0.5, -0.5) * point.xy / u_half), 1.0 + point.z / relief_depth);
     }
     float flat_ = length(point.xy) - u_ring;
     float v     = 0.5 - 0.5 * point.z / u_half.y;
@@ -101,7 +107,7 @@ vec3 place_of(vec3 point)
         v = 0.5 - angle(point.z, flat_) / (2.0 * PI);
     }
     vec2 uv = vec2(0.5 + angle(point.y, point.x) / (2.0 * PI), clamp(v, 0.0, 1.0));
-    return vec3(u_repeat * uv, 1.0 + (from_core(point) - u_radius) / u_depth);
+    return vec3(u_repeat * uv, 1.0 + (from_core(point) - u_radius) / relief_depth);
 }
 
 /* Of all images along axes that close, the one nearest to `before`. */
@@ -185,21 +191,28 @@ vec3 cut_normal(int axis, vec3 direction)
     return normal;
 }
 
-void across_plane(inout sight s, vec3 origin, vec3 direction)
+vec2 plane_span(vec3 origin, vec3 direction, out int through)
 {
-    vec2   span    = vec2(0.0, HC_MISS);
-    int    through = -1;
-    hc_hit hit;
+    vec2 span = vec2(0.0, HC_MISS);
+    through   = -1;
     clip(span, through, origin.x, direction.x, -u_half.x, u_half.x, 0);
     clip(span, through, origin.y, direction.y, -u_half.y, u_half.y, 1);
-    clip(span, through, origin.z, direction.z, -u_depth, 0.0, 2);
+    clip(span, through, origin.z, direction.z, -relief_depth, 0.0, 2);
+    return span;
+}
+
+void across_plane(inout sight s, vec3 origin, vec3 direction)
+{
+    int    through;
+    vec2   span = plane_span(origin, direction, through);
+    hc_hit hit;
     bool top = through == 2 && direction.z < 0.0;
     if (span.x > span.y || (u_discard && !top)) {
         return;
     }
     frame f     = frame_at(origin);
     vec3  from  = place_of(origin + span.x * direction);
-    vec3  along = hc_to_texture(direction, f.along_u, f.along_v, f.out_, f.scale, u_depth);
+    vec3  along = hc_to_texture(direction, f.along_u, f.along_v, f.out_, f.scale, relief_depth);
     vec3  to    = from + (span.y - span.x) * along;
     from.xy     = clamp(from.xy, vec2(0.0), u_repeat);
     to.xy       = clamp(to.xy, vec2(BRINK), u_repeat - BRINK);
@@ -214,30 +227,37 @@ void across_plane(inout sight s, vec3 origin, vec3 direction)
 /* docs/algorithms.md, section 21, has the bound. */
 float piece_length(vec3 point)
 {
-    float stray  = 8.0 * BEND * u_depth;
+    float stray  = 8.0 * BEND * relief_depth;
     float radius = min(from_core(point), length(point.xy));
     return sqrt(stray * max(radius - sqrt(stray * radius), RADIUS_LEAST));
 }
 
-void along_shell(inout sight s, vec3 origin, vec3 direction)
+vec2 round_span(vec3 origin, vec3 direction, out int through)
 {
     float middle  = -dot(origin, direction);
     vec3  nearest = origin + middle * direction;
     float square  = u_bound * u_bound - dot(nearest, nearest);
+    through       = -1;
     if (square < 0.0) {
-        return;
+        return vec2(0.0, -HC_MISS);
     }
-    vec2 span    = vec2(max(middle - sqrt(square), 0.0), middle + sqrt(square));
-    int  through = -1;
+    vec2 span = vec2(max(middle - sqrt(square), 0.0), middle + sqrt(square));
     if (u_body == CYLINDER) {
         clip(span, through, origin.z, direction.z, -u_half.y, u_half.y, 2);
     }
+    return span;
+}
+
+void along_shell(inout sight s, vec3 origin, vec3 direction)
+{
+    int   through;
+    vec2  span  = round_span(origin, direction, through);
     float t     = span.x;
     vec3  point = origin + t * direction;
     vec3  here  = place_of(point);
     bool  first = through >= 0;
     for (int i = 0; i < 1024 && t < span.y; i++) {
-        float away  = (here.z - 1.0) * u_depth;
+        float away  = (here.z - 1.0) * relief_depth;
         float step_ = piece_length(point);
         float next  = min(t + max(step_, away), span.y);
         point       = origin + next * direction;
@@ -270,6 +290,15 @@ sight look(vec3 origin, vec3 direction)
     return s;
 }
 
+/* What is left of the depth for a ray of the eye. */
+float faded(vec3 origin, vec3 direction)
+{
+    int  through;
+    vec2 span = u_body == PLANE ? plane_span(origin, direction, through)
+                                : round_span(origin, direction, through);
+    return u_fade.y > 0.0 ? max(hc_fade(span.x, u_fade.x, u_fade.y), FLATTEST) : 1.0;
+}
+
 /* ---- light ------------------------------------------------------------------------------------ */
 
 vec3 albedo_texel(ivec2 texel)
@@ -300,7 +329,7 @@ vec3 normal_at(sight s, vec3 point)
     frame f = frame_at(point);
     return dot(s.cut, s.cut) > 0.0 ? s.cut
                                    : hc_normal(hc_smooth_slopes(s.place.xy), f.along_u, f.along_v,
-                                               f.out_, f.scale, u_depth);
+                                               f.out_, f.scale, relief_depth);
 }
 
 /* A ray from the light that ends before the point leaves it in shadow. */
@@ -335,6 +364,8 @@ void main(void)
     vec3  moved     = place.x * u_right + place.y * u_down;
     vec3  origin    = u_orthographic ? u_eye + moved : u_eye;
     vec3  direction = u_orthographic ? u_forward : normalize(u_forward + moved);
+    relief_depth    = u_depth;
+    relief_depth    = u_depth * faded(origin, direction);
     sight s         = look(origin, direction);
     vec3  point     = origin + min(s.distance_, 1e6) * direction;
     float fetches   = float(hc_fetch_count);

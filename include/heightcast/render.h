@@ -45,9 +45,12 @@ typedef struct hc_relief {
                                bilinear; open_sides and threads do not count               */
     hc_body          body;
     hc_edge          edge;
-    float            depth;     /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12   */
-    float            aspect;    /* plane: y side over x side; 0: height / width of the field    */
-    int              repeat[2]; /* tiles along u and v  [1 .. 256]  0: plane 1 1, cylinder 2 1,
+    float            depth;  /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12   */
+    float            aspect; /* plane: y side over x side; 0: height / width of the field    */
+    float fade[2];   /* distances from the eye, to where a ray comes to the body's box or ball, at
+                      which the relief begins to sink into the hull and is gone; so there is no
+                      seam where an engine takes a plain polygon. 0 0: never */
+    int   repeat[2]; /* tiles along u and v  [1 .. 256]  0: plane 1 1, cylinder 2 1,
                                    sphere 4 2, torus 4 2                                        */
 } hc_relief;
 

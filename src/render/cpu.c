@@ -13,11 +13,12 @@ static void draw_sample(hc_pixel *pixel, const hc_stage *stage, double x, double
     double        origin[3], direction[3];
     hc_sample     sample;
     hc_stage_ray(stage, origin, direction, x, y);
-    const hc_sight sight = hc_sight_along(&stage->shape, edge, stage->tracer, origin, direction);
-    hc_shade(&sample, stage, &sight, origin, direction);
+    const hc_shape shape = hc_stage_shape(stage, origin, direction);
+    const hc_sight sight = hc_sight_along(&shape, edge, stage->tracer, origin, direction);
+    hc_shade(&sample, stage, &shape, &sight, origin, direction);
     if (stage->exact != NULL) {
         sample.exact =
-            (float)hc_sight_along(&stage->shape, edge, stage->exact, origin, direction).distance;
+            (float)hc_sight_along(&shape, edge, stage->exact, origin, direction).distance;
     }
     hc_pixel_add(pixel, stage, &sample, direction, row);
 }

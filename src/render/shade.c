@@ -43,17 +43,17 @@ static void albedo_at(double rgb[3], const hc_stage *stage, const hc_sight *sigh
 }
 
 /* Slopes of the relief bend the body's own normal. */
-static void normal_at(double normal[3], const hc_stage *stage, const hc_sight *sight,
-                      const double point[3])
+static void normal_at(double normal[3], const hc_stage *stage, const hc_shape *shape,
+                      const hc_sight *sight, const double point[3])
 {
-    const hc_frame frame = hc_shape_frame(&stage->shape, point);
+    const hc_frame frame = hc_shape_frame(shape, point);
     float          flat[3];
     if (hc_dot(sight->cut, sight->cut) > 0.0) {
         memcpy(normal, sight->cut, 3 * sizeof *normal);
         return;
     }
     hc_trace_normals(stage->tracer, NULL, flat, &sight->hit);
-    const double steep = stage->shape.depth / (double)flat[2];
+    const double steep = shape->depth / (double)flat[2];
     memcpy(normal, frame.out, 3 * sizeof *normal);
     hc_add_scaled(normal, normal, steep * (double)flat[0] / frame.scale[0], frame.along_u);
     hc_add_scaled(normal, normal, steep * (double)flat[1] / frame.scale[1], frame.along_v);
@@ -64,8 +64,8 @@ static void normal_at(double normal[3], const hc_stage *stage, const hc_sight *s
 
 /* A ray from the light that ends before the point leaves it in shadow. It comes from there, as the
  * 2006 paper has it, since published methods cannot start on the surface. */
-static bool in_shadow(const hc_stage *stage, const double point[3], const double to_light[3],
-                      double distance)
+static bool in_shadow(const hc_stage *stage, const hc_shape *shape, const double point[3],
+                      const double to_light[3], double distance)
 {
     double origin[3], along[3];
     hc_add_scaled(origin, point, distance, to_light);
@@ -73,7 +73,7 @@ static bool in_shadow(const hc_stage *stage, const double point[3], const double
         along[i] = -to_light[i];
     }
     const hc_sight sight =
-        hc_sight_along(&stage->shape, stage->scene.relief.edge, stage->tracer, origin, along);
+        hc_sight_along(shape, stage->scene.relief.edge, stage->tracer, origin, along);
     return sight.distance < distance - stage->shadow_slip;
 }
 
@@ -85,8 +85,9 @@ static double power_of_two(double base, int exponent)
     return base;
 }
 
-static void light(double rgb[3], const hc_stage *stage, const double albedo[3],
-                  const double normal[3], const double point[3], const double direction[3])
+static void light(double rgb[3], const hc_stage *stage, const hc_shape *shape,
+                  const double albedo[3], const double normal[3], const double point[3],
+                  const double direction[3])
 {
     const hc_material *m        = &stage->scene.material;
     double             distance = HC_SUN_AWAY;
@@ -100,7 +101,7 @@ static void light(double rgb[3], const hc_stage *stage, const double albedo[3],
     const double facing = hc_dot(normal, to_light);
     const bool   dark =
         !(facing > 0.0)
-        || (!stage->scene.light.no_shadows && in_shadow(stage, point, to_light, distance));
+        || (!stage->scene.light.no_shadows && in_shadow(stage, shape, point, to_light, distance));
     double half[3];
     hc_add_scaled(half, to_light, -1.0, direction);
     (void)hc_unit(half);
@@ -112,8 +113,8 @@ static void light(double rgb[3], const hc_stage *stage, const double albedo[3],
     }
 }
 
-void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_sight *sight,
-              const double origin[3], const double direction[3])
+void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_shape *shape,
+              const hc_sight *sight, const double origin[3], const double direction[3])
 {
     double albedo[3], normal[3], point[3], rgb[3];
     *sample = (hc_sample){ .distance    = (float)sight->distance,
@@ -127,8 +128,8 @@ void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_sight *sight,
     }
     hc_add_scaled(point, origin, sight->distance, direction);
     albedo_at(albedo, stage, sight);
-    normal_at(normal, stage, sight, point);
-    light(rgb, stage, albedo, normal, point, direction);
+    normal_at(normal, stage, shape, sight, point);
+    light(rgb, stage, shape, albedo, normal, point, direction);
     for (int i = 0; i < 3; i++) {
         sample->normal[i] = (float)normal[i];
         sample->rgb[i]    = (float)rgb[i];

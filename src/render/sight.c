@@ -64,14 +64,20 @@ static bool starts_in_solid(const hc_hit *hit)
 
 /* ---- the plane ------------------------------------------------------------------------------- */
 
-static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge,
-                         const hc_tracer *tracer, const double origin[3], const double direction[3])
+static span plane_span(const hc_shape *shape, const double origin[3], const double direction[3])
 {
-    span   s = { 0.0, INFINITY, -1 };
-    double point[3], a[3], b[3];
+    span s = { 0.0, INFINITY, -1 };
     clip(&s, origin[0], direction[0], -shape->half[0], shape->half[0], 0);
     clip(&s, origin[1], direction[1], -shape->half[1], shape->half[1], 1);
     clip(&s, origin[2], direction[2], -shape->depth, 0.0, 2);
+    return s;
+}
+
+static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge,
+                         const hc_tracer *tracer, const double origin[3], const double direction[3])
+{
+    const span s = plane_span(shape, origin, direction);
+    double     point[3], a[3], b[3];
     const bool top = s.through == 2 && direction[2] < 0.0;
     if (!(s.from <= s.to) || (edge == HC_EDGE_DISCARD && !top)) {
         return;
@@ -148,6 +154,13 @@ static void through_shell(hc_sight *sight, const hc_shape *shape, const hc_trace
         memcpy(here, there, sizeof here);
         t = next;
     }
+}
+
+double hc_sight_entry(const hc_shape *shape, const double origin[3], const double direction[3])
+{
+    const span s = shape->body == HC_BODY_PLANE ? plane_span(shape, origin, direction)
+                                                : round_span(shape, origin, direction);
+    return s.from <= s.to ? s.from : INFINITY;
 }
 
 hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, const hc_tracer *tracer,

@@ -13,6 +13,9 @@ typedef struct hc_sight {
     bool     unconverged;
 } hc_sight;
 
+/* Where a ray comes to the box (plane) or ball that holds the body; INFINITY: it passes by. */
+double hc_sight_entry(const hc_shape *shape, const double origin[3], const double direction[3]);
+
 /* origin outside the hull; direction of unit length. */
 hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, const hc_tracer *tracer,
                         const double origin[3], const double direction[3]);

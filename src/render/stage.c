@@ -10,6 +10,9 @@
 
 enum { SIDE_MAX = 65536, REPEAT_MAX = 256, SAMPLES_MAX = 256, GLOSS_MAX = 12, VIEWS = 8 };
 
+/* Of relief that has faded: there is still something to divide by. */
+static const double FLATTEST = 1.0 / 1024.0;
+
 /* ---- checks -------------------------------------------------------------------------------- */
 
 static hc_result check_whole(const char *what, int value, int low, int high, hc_log *log)
@@ -60,6 +63,8 @@ static hc_result check_relief(const hc_relief *relief, hc_log *log)
     const float deepest = torus ? 0.36F : relief->body == HC_BODY_CYLINDER ? 0.54F : 0.9F;
     CHECK(check_number("relief.depth", relief->depth, 0.0F, deepest, log));
     CHECK(check_number("relief.aspect", relief->aspect, 0.0F, 64.0F, log));
+    CHECK(check_number("relief.fade[0]", relief->fade[0], 0.0F, 1e9F, log));
+    CHECK(check_number("relief.fade[1]", relief->fade[1], relief->fade[0], 1e9F, log));
     if (relief->trace.surface != HC_SURFACE_BILINEAR || relief->trace.placement.scale_z != 0.0) {
         return hc_fail(log, HC_ERROR_ARGUMENT,
                        "relief.trace has a surface or a placement of its own; leave them zero");
@@ -221,6 +226,19 @@ void hc_stage_ray(const hc_stage *stage, double origin[3], double direction[3], 
     hc_add_scaled(moved, moved, across, stage->right);
     hc_add_scaled(moved, moved, down, stage->down);
     (void)hc_unit(direction);
+}
+
+hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3])
+{
+    const double near  = (double)stage->scene.relief.fade[0];
+    const double far   = (double)stage->scene.relief.fade[1];
+    hc_shape     shape = stage->shape;
+    if (far > 0.0) {
+        const double away  = hc_sight_entry(&shape, origin, direction);
+        const double share = fmin(fmax((away - near) / fmax(far - near, 1e-9), 0.0), 1.0);
+        shape.depth *= fmax(1.0 - share * share * (3.0 - 2.0 * share), FLATTEST);
+    }
+    return shape;
 }
 
 /* ---- the light ----------------------------------------------------------------------------- */

@@ -32,6 +32,9 @@ void hc_stage_sample_place(const hc_stage *stage, double place[2], int index);
 /* A sun's rays start so far from what they light: outside every body. */
 #define HC_SUN_AWAY 8.0
 
+/* The shape as this ray of the eye sees it: flatter where the relief fades. */
+hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3]);
+
 /* The ray through the point (x, y) of the picture, in pixels. */
 void hc_stage_ray(const hc_stage *stage, double origin[3], double direction[3], double x, double y);
 

@@ -153,6 +153,17 @@ static void other_choices(void **state)
     compare(&scene, HC_VIEW_SHADED);
 }
 
+static void fading(void **state)
+{
+    (void)state;
+    for (int body = 0; body <= HC_BODY_TORUS; body += HC_BODY_TORUS) {
+        hc_scene scene       = scene_of((hc_body)body, HC_TRACE_MAXMIP);
+        scene.relief.fade[0] = 2.0F;
+        scene.relief.fade[1] = 6.0F;
+        compare(&scene, HC_VIEW_SHADED);
+    }
+}
+
 static void views_and_albedo(void **state)
 {
     (void)state;
@@ -260,6 +271,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_on_every_body),
         cmocka_unit_test(other_choices),
+        cmocka_unit_test(fading),
         cmocka_unit_test(views_and_albedo),
         cmocka_unit_test(depths_agree),
         cmocka_unit_test(nothing_is_lost),

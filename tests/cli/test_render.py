@@ -76,6 +76,7 @@ class Render(Case):
     def test_scene_options_change_the_picture(self):
         plain = self.picture()
         for option in [["--depth", "0.4"], ["--repeat", "3"], ["--repeat", "2,1"], ["--aspect", "0.5"],
+                       ["--fade", "1:5"],
                        ["--camera", "0,-3,3"], ["--ortho", "3"], ["--fov", "60"],
                        ["--light", "1,0,0.2"], ["--lamp", "0,0,1"], ["--shadows", "off"],
                        ["--colour", "0.1,0.5,0.1"], ["--at", "0.5,0,0", "--camera", "0,-3,3"]]:

@@ -75,6 +75,17 @@ static void draw(shot *s, const hc_scene *scene, const hc_render_options *option
     }
 }
 
+static void refuse(const hc_scene *scene, const hc_render_options *options, const char *says)
+{
+    static float rgb[3];
+    hc_log       log     = { .text = "" };
+    hc_picture   picture = { .width = 1, .height = 1, .rgb = rgb };
+    assert_int_equal(hc_render(&picture, scene, options, &log), HC_ERROR_ARGUMENT);
+    if (strstr(log.text, says) == NULL) {
+        fail_msg("'%s' does not say '%s'", log.text, says);
+    }
+}
+
 static double distance_to_axis(const double p[3])
 {
     return sqrt(p[0] * p[0] + p[1] * p[1]);
@@ -233,6 +244,38 @@ static void edges(void **state)
     assert_int_equal(s.picture.figures.hits, 0);
 }
 
+/* Before it begins to fade the relief is as it was, beyond it lies in the hull. */
+static void relief_fades(void **state)
+{
+    (void)state;
+    static shot whole, faded;
+    for (int body = 0; body <= HC_BODY_TORUS; body++) {
+        hc_scene scene      = scene_of(level_heights, (hc_body)body, HC_TRACE_SAFE);
+        scene.relief.depth  = 0.3F;
+        scene.camera.eye[2] = 6.0;
+        scene.camera.eye[0] = 0.01;
+        scene.camera.fov    = 30.0F;
+        draw(&whole, &scene, NULL);
+        scene.relief.fade[0] = 20.0F;
+        scene.relief.fade[1] = 30.0F;
+        draw(&faded, &scene, NULL);
+        assert_memory_equal(whole.depth, faded.depth, sizeof whole.depth);
+        scene.relief.fade[0] = 1.0F;
+        scene.relief.fade[1] = 2.0F;
+        draw(&faded, &scene, NULL);
+        if (body == HC_BODY_PLANE) {
+            const int middle = HIGH / 2 * WIDE + WIDE / 2;
+            assert_true(fabs((double)whole.depth[middle] - 6.15) < 0.01);
+            assert_true(fabs((double)faded.depth[middle] - 6.0) < 0.01);
+        }
+        assert_true(faded.picture.figures.hits >= whole.picture.figures.hits);
+    }
+    hc_scene bad       = scene_of(level_heights, HC_BODY_PLANE, HC_TRACE_SAFE);
+    bad.relief.fade[0] = 2.0F;
+    bad.relief.fade[1] = 1.0F;
+    refuse(&bad, NULL, "relief.fade[1] is 1");
+}
+
 /* A wall of height 1 at the left, a sun at 45 degrees: its shadow is as long as it is high. */
 static void a_shadow_has_its_length(void **state)
 {
@@ -380,17 +423,6 @@ static bool stop_at_once(void *user, double fraction)
 
 /* ---- what is refused ------------------------------------------------------------------------- */
 
-static void refuse(const hc_scene *scene, const hc_render_options *options, const char *says)
-{
-    static float rgb[3];
-    hc_log       log     = { .text = "" };
-    hc_picture   picture = { .width = 1, .height = 1, .rgb = rgb };
-    assert_int_equal(hc_render(&picture, scene, options, &log), HC_ERROR_ARGUMENT);
-    if (strstr(log.text, says) == NULL) {
-        fail_msg("'%s' does not say '%s'", log.text, says);
-    }
-}
-
 static void bad_scenes_are_refused(void **state)
 {
     (void)state;
@@ -464,6 +496,7 @@ int main(void)
         cmocka_unit_test(level_silhouettes_are_exact),
         cmocka_unit_test(a_plane_from_above),
         cmocka_unit_test(edges),
+        cmocka_unit_test(relief_fades),
         cmocka_unit_test(a_shadow_has_its_length),
         cmocka_unit_test(a_lamp_is_near),
         cmocka_unit_test(albedo_lies_on_the_field),

@@ -159,6 +159,8 @@ static void choose_scene(hc_cli_relief *relief, const hc_cli *cli)
     scene->relief.edge              = render->edge;
     scene->relief.depth             = render->depth;
     scene->relief.aspect            = aspect_of(settings, &relief->ground.field);
+    scene->relief.fade[0]           = (float)render->fade[0];
+    scene->relief.fade[1]           = (float)render->fade[1];
     memcpy(scene->relief.repeat, render->repeat, sizeof render->repeat);
     scene->light.lamp       = lamp;
     scene->light.no_shadows = render->shadows != 0;

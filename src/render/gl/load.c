@@ -163,6 +163,8 @@ static void set_shape(unsigned program, const hc_stage *stage)
     set_int(program, "u_body", (int)shape->body);
     set_int(program, "u_discard", stage->scene.relief.edge == HC_EDGE_DISCARD);
     set_float(program, "u_depth", shape->depth);
+    set_pair(program, "u_fade", (double)stage->scene.relief.fade[0],
+             (double)stage->scene.relief.fade[1]);
     set_float(program, "u_radius", shape->radius);
     set_float(program, "u_ring", shape->ring);
     set_pair(program, "u_half", shape->half[0], shape->half[1]);
