@@ -220,6 +220,24 @@ static void nothing_is_lost(void **state)
     assert_true(gl.picture.figures.lost > 20);
 }
 
+/* What is lost and made up is the same, qdm's with it, whose pyramid is not that of the judge. */
+static void losses_agree(void **state)
+{
+    static const hc_trace_method methods[] = { HC_TRACE_QDM, HC_TRACE_LINEAR, HC_TRACE_CONE_FIXED };
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        const hc_scene           scene = scene_of(HC_BODY_PLANE, methods[i]);
+        const hc_render_figures *a     = &cpu.picture.figures;
+        const hc_render_figures *b     = &gl.picture.figures;
+        draw(&cpu, &scene, HC_VIEW_MISSED, HC_BACKEND_CPU);
+        draw(&gl, &scene, HC_VIEW_MISSED, HC_BACKEND_GL);
+        assert_true(a->lost + a->made_up > 100);
+        assert_in_range(a->lost, b->lost > ODD_MAX ? b->lost - ODD_MAX : 0, b->lost + ODD_MAX);
+        assert_in_range(a->made_up, b->made_up > ODD_MAX ? b->made_up - ODD_MAX : 0,
+                        b->made_up + ODD_MAX);
+    }
+}
+
 /* Golden: a change of these means that marchers step otherwise. Means over the rays of the pictures
  * above that come near; in double precision cones lead on long after float32 has arrived. */
 static void step_counts(void **state)
@@ -275,6 +293,7 @@ int main(void)
         cmocka_unit_test(views_and_albedo),
         cmocka_unit_test(depths_agree),
         cmocka_unit_test(nothing_is_lost),
+        cmocka_unit_test(losses_agree),
         cmocka_unit_test(step_counts),
         cmocka_unit_test(refusals),
     };

@@ -69,10 +69,11 @@ static hc_result load_pyramid(unsigned *texture, int unit, const hc_pyramid *pyr
     return hc_gl_check("pyramid", log);
 }
 
-static const hc_pyramid *bounds_of(const hc_stage *stage)
+/* That of qdm is another one than that of the exact caster beside it. */
+static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)
 {
-    const hc_pyramid *own = hc_tracer_bounds(stage->tracer);
-    return own != NULL || stage->exact == NULL ? own : hc_tracer_bounds(stage->exact);
+    const hc_pyramid *bounds = tracer != NULL ? hc_tracer_bounds(tracer) : NULL;
+    return bounds != NULL ? load_pyramid(texture, unit, bounds, log) : HC_OK;
 }
 
 hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log)
@@ -80,7 +81,6 @@ hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, h
     const hc_relief   *relief = &stage->scene.relief;
     const hc_material *m      = &stage->scene.material;
     const hc_field    *field  = &relief->field;
-    const hc_pyramid  *bounds = bounds_of(stage);
     const bool         needs  = hc_trace_method_needs(relief->trace.method) != HC_NEEDS_NOTHING;
     hc_result          result = load_image(&textures[HC_GL_HEIGHTS], HC_GL_HEIGHTS, field->heights,
                                            field->width, field->height, 1, "field", log);
@@ -90,8 +90,11 @@ hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, h
             load_image(&textures[HC_GL_RATIOS], HC_GL_RATIOS, relief->trace.ratios, field->width,
                        field->height, hc_cones_channels(relief->trace.cones), "ratios", log);
     }
-    if (result == HC_OK && bounds != NULL) {
-        result = load_pyramid(&textures[HC_GL_BOUNDS], HC_GL_BOUNDS, bounds, log);
+    if (result == HC_OK) {
+        result = load_bounds(&textures[HC_GL_BOUNDS], HC_GL_BOUNDS, stage->tracer, log);
+    }
+    if (result == HC_OK) {
+        result = load_bounds(&textures[HC_GL_EXACT_BOUNDS], HC_GL_EXACT_BOUNDS, stage->exact, log);
     }
     if (result == HC_OK && m->albedo != NULL) {
         result = load_image(&textures[HC_GL_ALBEDO], HC_GL_ALBEDO, m->albedo, m->albedo_width,
@@ -142,11 +145,11 @@ static void set_field(unsigned program, const hc_stage *stage, hc_trace_method m
     const unsigned          wrap  = (unsigned)field->wrap;
     const double            zero =
         (field->registration == HC_GRID ? 0.0 : 0.5) - (method == HC_TRACE_QDM ? 0.5 : 0.0);
-    const hc_pyramid *bounds = bounds_of(stage);
+    const bool exact = method == HC_TRACE_MAXMIP && trace->method != HC_TRACE_MAXMIP;
     set_int(program, "hc_heights", HC_GL_HEIGHTS);
     set_int(program, "hc_ratios", HC_GL_RATIOS);
-    set_int(program, "hc_bounds", HC_GL_BOUNDS);
-    set_int(program, "hc_levels", bounds != NULL ? bounds->levels : 0);
+    set_int(program, "hc_bounds", exact ? HC_GL_EXACT_BOUNDS : HC_GL_BOUNDS);
+    set_int(program, "hc_levels", hc_pyramid_levels(field->width, field->height));
     glUniform2i(glGetUniformLocation(program, "hc_size"), field->width, field->height);
     glUniform2i(glGetUniformLocation(program, "hc_wraps"), (wrap & HC_WRAP_U) != 0,
                 (wrap & HC_WRAP_V) != 0);

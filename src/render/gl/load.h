@@ -4,7 +4,14 @@
 
 #include "../stage.h"
 
-enum { HC_GL_HEIGHTS = 0, HC_GL_RATIOS, HC_GL_BOUNDS, HC_GL_ALBEDO, HC_GL_TEXTURES };
+enum {
+    HC_GL_HEIGHTS = 0,
+    HC_GL_RATIOS,
+    HC_GL_BOUNDS,
+    HC_GL_EXACT_BOUNDS,
+    HC_GL_ALBEDO,
+    HC_GL_TEXTURES
+};
 
 /* textures [out] names, by texture unit. */
 hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log);
