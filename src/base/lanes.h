@@ -5,6 +5,7 @@
  *                    case
  * hc_spread_words    lanes[i] = from[k] for the k-th set bit i
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
+ * hc_rows            the reverse: rows[i] of eight words each from columns[k][i]
  * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i] */
 #ifndef HC_BASE_LANES_H
 #define HC_BASE_LANES_H
@@ -85,6 +86,39 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
     }
 }
 
+/* Eight columns of eight lanes turned into rows: transposed 8 x 8, in registers of two rows. */
+static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
+                           const float columns[HC_ROW_WORDS][HC_LANES])
+{
+    __m512 a[4];
+    __m512 b[4];
+    for (int k = 0; k < 2; k++) { /* words 4 k .. 4 k + 3 of rows i, i + 4, i + 8, i + 12 */
+        const __m512 c0 = _mm512_loadu_ps(columns[4 * k]);
+        const __m512 c1 = _mm512_loadu_ps(columns[4 * k + 1]);
+        const __m512 c2 = _mm512_loadu_ps(columns[4 * k + 2]);
+        const __m512 c3 = _mm512_loadu_ps(columns[4 * k + 3]);
+        const __m512 e  = _mm512_unpacklo_ps(c0, c1);
+        const __m512 f  = _mm512_unpackhi_ps(c0, c1);
+        const __m512 g  = _mm512_unpacklo_ps(c2, c3);
+        const __m512 h  = _mm512_unpackhi_ps(c2, c3);
+        __m512      *to = k == 0 ? a : b;
+        to[0]           = _mm512_shuffle_ps(e, g, 0x44);
+        to[1]           = _mm512_shuffle_ps(e, g, 0xee);
+        to[2]           = _mm512_shuffle_ps(f, h, 0x44);
+        to[3]           = _mm512_shuffle_ps(f, h, 0xee);
+    }
+    for (int i = 0; i < 4; i++) {
+        _mm_storeu_ps(rows[i], _mm512_castps512_ps128(a[i]));
+        _mm_storeu_ps(rows[i] + 4, _mm512_castps512_ps128(b[i]));
+        _mm_storeu_ps(rows[i + 4], _mm512_extractf32x4_ps(a[i], 1));
+        _mm_storeu_ps(rows[i + 4] + 4, _mm512_extractf32x4_ps(b[i], 1));
+        _mm_storeu_ps(rows[i + 8], _mm512_extractf32x4_ps(a[i], 2));
+        _mm_storeu_ps(rows[i + 8] + 4, _mm512_extractf32x4_ps(b[i], 2));
+        _mm_storeu_ps(rows[i + 12], _mm512_extractf32x4_ps(a[i], 3));
+        _mm_storeu_ps(rows[i + 12] + 4, _mm512_extractf32x4_ps(b[i], 3));
+    }
+}
+
 #else
 
 #define HC_MOVE_LANES(pack, spread, type, size)                                                    \
@@ -113,6 +147,16 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
         memcpy(row, (const char *)base + (ptrdiff_t)rows[i] * (ptrdiff_t)sizeof row, sizeof row);
         for (int k = 0; k < HC_ROW_WORDS; k++) {
             columns[k][i] = row[k];
+        }
+    }
+}
+
+static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
+                           const float columns[HC_ROW_WORDS][HC_LANES])
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        for (int k = 0; k < HC_ROW_WORDS; k++) {
+            memcpy(&rows[i][k], &columns[k][i], sizeof rows[i][k]);
         }
     }
 }

@@ -189,12 +189,21 @@ static hc_fast_march *kernel_of(const hc_fast *fast)
     return hc_fast_march_scalar;
 }
 
+/* Kernels count rays in 32 bits. */
+static const size_t most_at_once = (size_t)1 << 30;
+
 void hc_fast_nearest(const hc_fast *fast, hc_hit *hits, const hc_ray *rays, size_t count)
 {
-    kernel_of(fast)(fast, (hc_fast_answer){ .hits = hits }, rays, count);
+    for (size_t i = 0; i < count; i += most_at_once) {
+        const size_t part = count - i < most_at_once ? count - i : most_at_once;
+        kernel_of(fast)(fast, (hc_fast_answer){ .hits = hits + i }, rays + i, part);
+    }
 }
 
 void hc_fast_any(const hc_fast *fast, uint8_t *any, const hc_ray *rays, size_t count)
 {
-    kernel_of(fast)(fast, (hc_fast_answer){ .any = any }, rays, count);
+    for (size_t i = 0; i < count; i += most_at_once) {
+        const size_t part = count - i < most_at_once ? count - i : most_at_once;
+        kernel_of(fast)(fast, (hc_fast_answer){ .any = any + i }, rays + i, part);
+    }
 }

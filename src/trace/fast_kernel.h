@@ -53,6 +53,14 @@ static void answer_miss(const job *j, int32_t which, int32_t steps, int32_t cros
         (hc_hit){ .t = INFINITY, .steps = (uint32_t)steps, .crossings = (uint32_t)crossings };
 }
 
+/* Of those in question, that something is hit. */
+static void answer_any(const job *j, const int32_t *which, unsigned hits)
+{
+    for (; hits != 0; hits &= hits - 1) {
+        j->answer.any[which[__builtin_ctz(hits)]] = 1;
+    }
+}
+
 static void answer_hit(const job *j, int32_t which, const hc_fast_ray *r,
                        const hc_fast_found *found, int32_t steps, int32_t crossings)
 {
@@ -324,30 +332,39 @@ static bool walk_trial(const job *j, const hc_fast_ray *r, int i)
     return hit;
 }
 
-static void answer_trial(const job *j, const verdict *v, int i)
+/* The answers to trials that hit. */
+static void answer_trials(const job *j, const verdict *v, unsigned hits)
 {
     const trials *c = &j->trials;
-    if (j->answer.any != NULL) {
-        j->answer.any[c->which[i]] = 1;
-        return;
+    float         columns[HC_ROW_WORDS][HC_LANES];
+    float         rows[HC_LANES][HC_ROW_WORDS]; /* hc_hit but for its last word */
+    const hc_i    none = hc_i_set(0);
+    for (int i = 0; i < HC_LANES; i++) {
+        columns[0][i] = (float)v->t[i];
     }
-    j->answer.hits[c->which[i]] = (hc_hit){ .t         = (float)v->t[i],
-                                            .u         = v->u[i],
-                                            .v         = v->v[i],
-                                            .height    = v->height[i],
-                                            .cell_x    = v->cell_x[i] + j->fast->x.first,
-                                            .cell_y    = v->cell_y[i] + j->fast->y.first,
-                                            .steps     = (uint32_t)c->steps[i],
-                                            .crossings = (uint32_t)c->crossings[i] };
+    memcpy(columns[1], v->u, sizeof columns[1]);
+    memcpy(columns[2], v->v, sizeof columns[2]);
+    memcpy(columns[3], v->height, sizeof columns[3]);
+    const hc_i x = hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first));
+    const hc_i y = hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first));
+    hc_v_store(columns[4], hc_v_of_bits(x));
+    hc_v_store(columns[5], hc_v_of_bits(y));
+    hc_v_store(columns[6], hc_v_of_bits(none)); /* flags */
+    memcpy(columns[7], c->steps, sizeof columns[7]);
+    hc_rows(rows, columns);
+    for (; hits != 0; hits &= hits - 1) {
+        const int i   = __builtin_ctz(hits);
+        hc_hit   *hit = &j->answer.hits[c->which[i]];
+        memcpy(hit, rows[i], sizeof rows[i]);
+        hit->crossings = (uint32_t)c->crossings[i];
+    }
 }
 
 static void settle(job *j, const batch *b, const verdict *v, int i)
 {
     const trials *c   = &j->trials;
     bool          hit = v->hit[i] != 0;
-    if (hit) {
-        answer_trial(j, v, i);
-    } else if (v->clear[i] == 0) {
+    if (!hit && v->clear[i] == 0) {
         hc_fast_ray r;
         (void)take_ray(&r, j->fast, b, i);
         hit = walk_trial(j, &r, i);
@@ -384,6 +401,16 @@ static void drop_trials(trials *c, int count)
     }
 }
 
+/* Which of the first sixteen have lanes that wait. */
+static unsigned waiting(const trials *c)
+{
+    unsigned lanes = 0;
+    for (int i = 0; i < HC_LANES; i++) {
+        lanes |= (unsigned)(c->lane[i] >= 0) << i;
+    }
+    return lanes;
+}
+
 static void decide(job *j)
 {
     trials   *c     = &j->trials;
@@ -399,8 +426,20 @@ static void decide(job *j)
     if (j->plain) {
         decide_cells(j->fast, &b, c, &v);
     }
-    for (int i = 0; i < count; i++) {
-        settle(j, &b, &v, i);
+    unsigned hits = 0;
+    unsigned rest = ALL_LANES >> (HC_LANES - count);
+    for (int i = 0; i < HC_LANES; i++) {
+        hits |= (unsigned)(v.hit[i] != 0) << i;
+    }
+    hits &= rest;
+    if (j->answer.any != NULL) {
+        answer_any(j, c->which, hits);
+    } else if (hits != 0) {
+        answer_trials(j, &v, hits);
+    }
+    rest &= ~(hits & ~waiting(c)); /* others run on those lanes by now */
+    for (; rest != 0; rest &= rest - 1) {
+        settle(j, &b, &v, __builtin_ctz(rest));
     }
     drop_trials(c, count);
 }
@@ -427,13 +466,6 @@ static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lane
     c->count = n + __builtin_popcount(lanes);
 }
 
-static void answer_below(const job *j, const pack *p, unsigned below)
-{
-    for (; below != 0; below &= below - 1) {
-        j->answer.any[p->ray.which[__builtin_ctz(below)]] = 1;
-    }
-}
-
 /* The lanes of a pack that stand on single cells. */
 static void see_near(job *j, pack *p)
 {
@@ -447,7 +479,7 @@ static void see_near(job *j, pack *p)
     hc_i_store(p->ray.crossings, hc_i_pick(seen.clear, hc_i_add(moves, hc_i_set(1)), moves));
     p->near = seen.clear & hc_v_greater(hc_v_load(p->until), ahead);
     if (j->answer.any != NULL) {
-        answer_below(j, p, seen.below);
+        answer_any(j, p->ray.which, seen.below);
         p->active &= ~seen.below;
     } else if (seen.below != 0) {
         put_on_trial(j, p, &seen, seen.below, false);
@@ -505,10 +537,27 @@ static unsigned busy_lanes(const job *j)
     return busy;
 }
 
+/* Idle lanes are computed too: their levels must be some level, and no lane may wait. */
+static void start(job *j)
+{
+    j->taken        = 0;
+    j->queued       = 0;
+    j->next         = 0;
+    j->left_count   = 0;
+    j->trials.count = 0;
+    for (int k = 0; k < PACKS; k++) {
+        pack *p   = &j->packs[k];
+        p->active = 0;
+        p->near   = 0;
+        p->held   = 0;
+        memset(p->level, 0, sizeof p->level);
+    }
+}
+
 void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *rays, size_t count)
 {
     job j;
-    memset(&j, 0, sizeof j);
+    start(&j);
     j.fast   = fast;
     j.answer = answer;
     j.rays   = rays;
