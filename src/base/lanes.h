@@ -3,7 +3,7 @@
  *
  * hc_pack_words      to[k] = lanes[i] for the k-th set bit i; may write HC_LANES values in any
  *                    case
- * hc_spread_words    lanes[i] = from[k] for the k-th set bit i
+ * hc_spread_words    lanes[i] = from[k] for the k-th set bit i; may read HC_LANES words in any case
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
  * hc_rows            the reverse: rows[i] of eight words each from columns[k][i]
  * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i] */
@@ -119,7 +119,87 @@ static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
     }
 }
 
-#else
+#elif defined(HC_SIMD_AVX2)
+
+static inline void hc_pack_words(void *to, unsigned lanes, const void *from)
+{
+    const __m256i *all = (const __m256i *)from;
+    int32_t       *out = (int32_t *)to;
+    out += hc_pack8(out, lanes & 255, _mm256_loadu_si256(all));
+    (void)hc_pack8(out, lanes >> 8, _mm256_loadu_si256(all + 1));
+}
+
+static inline void hc_spread8(void *lanes, unsigned set, const void *from)
+{
+    const uint64_t bytes = _pdep_u64(set, 0x0101010101010101U) * 255;
+    const uint64_t order = _pdep_u64(0x0706050403020100U, bytes);
+    const __m256i  index = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)order));
+    const __m256i  dense = _mm256_loadu_si256((const __m256i *)from);
+    const __m256i  old   = _mm256_loadu_si256((const __m256i *)lanes);
+    const __m256i  moved = _mm256_permutevar8x32_epi32(dense, index);
+    _mm256_storeu_si256((__m256i *)lanes, _mm256_blendv_epi8(old, moved, hc_i_mask8(set)));
+}
+
+static inline void hc_spread_words(void *lanes, unsigned set, const void *from)
+{
+    const size_t low = 4 * (size_t)__builtin_popcount(set & 255);
+    hc_spread8(lanes, set & 255, from);
+    hc_spread8((char *)lanes + 32, set >> 8, (const char *)from + low);
+}
+
+/* 8 x 8 words, transposed. */
+static inline void hc_turn8(__m256 r[8])
+{
+    __m256 a[8];
+    for (int k = 0; k < 8; k += 4) {
+        const __m256 e = _mm256_unpacklo_ps(r[k], r[k + 1]);
+        const __m256 f = _mm256_unpackhi_ps(r[k], r[k + 1]);
+        const __m256 g = _mm256_unpacklo_ps(r[k + 2], r[k + 3]);
+        const __m256 h = _mm256_unpackhi_ps(r[k + 2], r[k + 3]);
+        a[k]           = _mm256_shuffle_ps(e, g, 0x44);
+        a[k + 1]       = _mm256_shuffle_ps(e, g, 0xee);
+        a[k + 2]       = _mm256_shuffle_ps(f, h, 0x44);
+        a[k + 3]       = _mm256_shuffle_ps(f, h, 0xee);
+    }
+    for (int k = 0; k < 4; k++) {
+        r[k]     = _mm256_permute2f128_ps(a[k], a[k + 4], 0x20);
+        r[k + 4] = _mm256_permute2f128_ps(a[k], a[k + 4], 0x31);
+    }
+}
+
+static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void *base,
+                              const int32_t *rows)
+{
+    for (int half = 0; half < HC_LANES; half += 8) {
+        __m256 r[8];
+        for (int i = 0; i < 8; i++) {
+            r[i] = _mm256_loadu_ps((const float *)base + (ptrdiff_t)rows[half + i] * HC_ROW_WORDS);
+        }
+        hc_turn8(r);
+        for (int k = 0; k < 8; k++) {
+            _mm256_storeu_ps(columns[k] + half, r[k]);
+        }
+    }
+}
+
+static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
+                           const float columns[HC_ROW_WORDS][HC_LANES])
+{
+    for (int half = 0; half < HC_LANES; half += 8) {
+        __m256 r[8];
+        for (int k = 0; k < 8; k++) {
+            r[k] = _mm256_loadu_ps(columns[k] + half);
+        }
+        hc_turn8(r);
+        for (int i = 0; i < 8; i++) {
+            _mm256_storeu_ps(rows[half + i], r[i]);
+        }
+    }
+}
+
+#endif
+
+#if !defined(HC_SIMD_AVX512)
 
 #define HC_MOVE_LANES(pack, spread, type, size)                                                    \
     static inline void pack(type *to, unsigned lanes, const type *from)                            \
@@ -136,8 +216,13 @@ static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
                    (const char *)from + (size)*k, (size));                                         \
         }                                                                                          \
     }
-HC_MOVE_LANES(hc_pack_words, hc_spread_words, void, 4)
 HC_MOVE_LANES(hc_pack_doubles, hc_spread_doubles, double, 8)
+
+#endif
+
+#if !defined(HC_SIMD_AVX512) && !defined(HC_SIMD_AVX2)
+
+HC_MOVE_LANES(hc_pack_words, hc_spread_words, void, 4)
 
 static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void *base,
                               const int32_t *rows)

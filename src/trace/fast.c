@@ -52,16 +52,17 @@ static hc_fast_axis make_axis(int samples, double period, bool wrapped, bool pos
 
 static void set_axes(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
 {
-    const hc_placement *place = &options->placement;
-    const bool          posts = field->registration == HC_GRID;
-    fast->x                   = make_axis(field->width, 1.0 / hc_field_step_u(field),
-                                          ((unsigned)field->wrap & HC_WRAP_U) != 0, posts, options, place->spacing_x,
-                                          place->offset[0]);
-    fast->y                   = make_axis(field->height, 1.0 / hc_field_step_v(field),
-                                          ((unsigned)field->wrap & HC_WRAP_V) != 0, posts, options, place->spacing_y,
-                                          place->offset[1]);
-    fast->scale_z             = place->scale_z > 0.0 ? 1.0 / place->scale_z : 1.0;
-    fast->shift_z             = place->scale_z > 0.0 ? -place->offset[2] / place->scale_z : 0.0;
+    const hc_placement *place  = &options->placement;
+    const bool          posts  = field->registration == HC_GRID;
+    const bool          wrap_u = ((unsigned)field->wrap & HC_WRAP_U) != 0;
+    const bool          wrap_v = ((unsigned)field->wrap & HC_WRAP_V) != 0;
+
+    fast->x       = make_axis(field->width, 1.0 / hc_field_step_u(field), wrap_u, posts, options,
+                              place->spacing_x, place->offset[0]);
+    fast->y       = make_axis(field->height, 1.0 / hc_field_step_v(field), wrap_v, posts, options,
+                              place->spacing_y, place->offset[1]);
+    fast->scale_z = place->scale_z > 0.0 ? 1.0 / place->scale_z : 1.0;
+    fast->shift_z = place->scale_z > 0.0 ? -place->offset[2] / place->scale_z : 0.0;
 }
 
 /* Rows, filled up to those that stand together. */
@@ -165,8 +166,8 @@ void hc_fast_destroy(hc_fast *fast)
 }
 
 /* What is decided is decided in double precision: rounding of rays 2^-30 of the field's sides away
- * from it, and what far origins add. The patch is solved in cell coordinates, so a ray is as good as
- * one moved by its rounding there. */
+ * from it, and what far origins add. The patch is solved in cell coordinates, so a ray is as good
+ * as one moved by its rounding there. */
 void hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach)
 {
     const int side = fast->x.cells > fast->y.cells ? fast->x.cells : fast->y.cells;

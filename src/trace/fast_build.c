@@ -126,8 +126,8 @@ static void diagonal_top(float *highest, const float *tops, ptrdiff_t dx, ptrdif
 }
 
 /* Steepest slope from each of TILE blocks to diagonals first .. DIAGONALS; a diagonal of blocks as
- * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways` counts the diagonals
- * up to which none is higher than the block. */
+ * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways` counts the
+ * diagonals up to which none is higher than the block. */
 static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t dx, ptrdiff_t dy,
                         int side, int first, float least)
 {
@@ -245,9 +245,9 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
     return decode(b->sparse, code);
 }
 
-/* A ray may be up to three blurs from where it is marched: what stands there is seen with this weight
- * from any quadrant. The way to what stands near it, on sparse ground, is not known: there it counts
- * with the steepest of all. */
+/* A ray may be up to three blurs from where it is marched: what stands there is seen with this
+ * weight from any quadrant. The way to what stands near it, on sparse ground, is not known: there
+ * it counts with the steepest of all. */
 static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4],
                         const float ways[4])
 {

@@ -14,12 +14,13 @@ enum { HC_FAST_LEVELS = 10, HC_FAST_RATIO_BITS = 2, HC_FAST_BASE_BITS = 1 };
 /* Slopes are floats of five bits exponent and three bits mantissa, from 2^-30 to 3.75. */
 enum { HC_FAST_SLOPE_SHIFT = 20, HC_FAST_SLOPE_BIAS = 97 << 23 };
 
-/* Rows stand together, value by value, so that a cache line is a square: four rows of heights, two of
- * blocks. */
+/* Rows stand together, value by value, so that a cache line is a square: four rows of heights, two
+ * of blocks. */
 enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 1 };
 
-/* Where few things stand on a flat ground a slope is a power of two, four bits from 2^-11 to 2^4, and
- * the other four say how far nothing beyond the block is higher than it: so many times its side. */
+/* Where few things stand on a flat ground a slope is a power of two, four bits from 2^-11 to 2^4,
+ * and the other four say how far nothing beyond the block is higher than it: so many times its
+ * side. */
 enum { HC_FAST_SPARSE_SHIFT = 23, HC_FAST_SPARSE_BIAS = 116 << 23, HC_FAST_FREE_BITS = 4 };
 
 /* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,

@@ -121,9 +121,9 @@ static inline unsigned next_cells(const hc_fast *fast, const batch *b, const tes
     return hc_v_greater(hc_v_load(more), hc_v_set(0.0F));
 }
 
-/* An open cell is followed by the next one, so that a lane that stands on a wall gets away from it. It
- * goes on a hair behind the wall: there the ray rises faster than the ground, or what the marching
- * allows for rounding is more than the ground rises. */
+/* An open cell is followed by the next one, so that a lane that stands on a wall gets away from it.
+ * It goes on a hair behind the wall: there the ray rises faster than the ground, or what the
+ * marching allows for rounding is more than the ground rises. */
 static inline void test_next(const hc_fast *fast, const batch *b, const trials *c,
                              const test *first, verdict *v)
 {

@@ -77,8 +77,8 @@ static inline quadratic gap_over(const hc_fast_ray *r, const patch *p, double ce
 }
 
 /* The first s > 0 where the quadratic comes down to 0 from c >= 0; INFINITY if it never does. Both
- * forms add what has one sign: the other root may be next to 0, where a ray has just come out of the
- * ground. Without a real root, `root` and `under` are NaN. */
+ * forms add what has one sign: the other root may be next to 0, where a ray has just come out of
+ * the ground. Without a real root, `root` and `under` are NaN. */
 static inline double first_root(quadratic q)
 {
     const double root  = sqrt(q.b * q.b - 4.0 * q.a * q.c);
