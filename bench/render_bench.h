@@ -1,5 +1,5 @@
-/* What a frame of relief costs, and how wrong it is, map by map and method by method: the second table
- * of the 2022 paper, with more rows. */
+/* What a frame of relief costs, and how wrong it is, map by map and method by method: the second
+ * table of the 2022 paper, with more rows. */
 #ifndef HC_BENCH_RENDER_BENCH_H
 #define HC_BENCH_RENDER_BENCH_H
 

@@ -1,5 +1,5 @@
-# make install: libraries, headers, CMake package (components core, io and render), pkg-config files,
-# program and man page.
+# make install: libraries, headers, CMake package (components core, io and render), pkg-config
+# files, program and man page.
 include(CMakePackageConfigHelpers)
 
 foreach(component core io render)

@@ -1,5 +1,5 @@
-/* Relief round a sphere, drawn in memory and written as PNG. Quadrant cones are baked first, so that
- * the marcher called safe can take long steps and lose nothing. */
+/* Relief round a sphere, drawn in memory and written as PNG. Quadrant cones are baked first, so
+ * that the marcher called safe can take long steps and lose nothing. */
 #include <heightcast/heightcast.h>
 #include <heightcast/io.h>
 #include <heightcast/render.h>

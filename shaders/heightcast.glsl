@@ -7,10 +7,12 @@
  *                                   HC_QDM, HC_PARALLAX, HC_LINEAR, HC_RELIEF, HC_OCCLUSION,
  *                                   HC_CONE_FIXED, HC_CONE_LOOP, HC_CONE_EXACT, HC_RELAXED,
  *                                   HC_ROBUST, HC_QUICK
- *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00, GLSL
+ *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00,
+ * GLSL
  *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
  *                                   axes that hc_wraps names
- *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R, roots
+ *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R,
+ * roots
  *                                   of the ratios in G, slopes in B and A; hc_ratios is not read
  * Methods, and what they find and lose: include/heightcast/trace.h, where they have the same names.
  *
@@ -65,18 +67,19 @@ uniform sampler2D hc_heights; /* R: samples, row 0 is v = 0 */
 uniform sampler2D hc_ratios; /* of samples, or of cells */
 #endif
 #if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
-uniform sampler2D hc_bounds; /* R, all mips: the highest corner of each cell (qdm: the samples), each
-                                level the maximum of the one below it; an odd side's last texel
-                                takes the one left over, too */
-uniform int hc_levels;       /* of hc_bounds */
+/* R, all mips: the highest corner of each cell (qdm: the samples), each level the maximum of the
+ * one below it; an odd side's last texel takes the one left over, too. */
+uniform sampler2D hc_bounds;
+uniform int       hc_levels;
 #endif
-uniform ivec2 hc_size;       /* samples */
-uniform vec2  hc_steps;      /* cells per tile: the size; of grid registration without wrap, one less */
-uniform vec2  hc_zero;       /* place of sample 0, in cells: 0.5, or 0 with grid registration. qdm: 0.5
-                                less, since its cells are the texels */
-uniform bvec2 hc_wraps;      /* axes along which the field repeats */
-uniform int   hc_step_count; /* at most so many steps, in methods that count them */
-uniform int   hc_refinements; /* bisections; -1: one secant, -2: none */
+/* Samples; cells per tile: as many, with grid registration and no wrap one less; place of sample 0
+ * in cells: 0.5, with grid registration 0, for qdm 0.5 less, since its cells are the texels; axes
+ * along which the field repeats. */
+uniform ivec2 hc_size;
+uniform vec2  hc_steps, hc_zero;
+uniform bvec2 hc_wraps;
+uniform int   hc_step_count;  /* at most so many steps, in methods that count them */
+uniform int   hc_refinements; /* bisections; -1: one secant, -2: none              */
 
 /* Reads of textures so far, if you care. */
 int hc_fetch_count = 0;
@@ -232,8 +235,8 @@ vec3 hc_gap_of(hc_patch patch_, hc_path path, ivec2 cell, float s)
                 -patch_.twist * along.x * along.y);
 }
 
-/* Least r in 0 .. length where a gap that starts above 0 is none; HC_MISS: it stays. The roots are by
- * the formulas that add what the others would cancel; a change of sign is a contact, whatever
+/* Least r in 0 .. length where a gap that starts above 0 is none; HC_MISS: it stays. The roots are
+ * by the formulas that add what the others would cancel; a change of sign is a contact, whatever
  * rounding makes of them. */
 float hc_contact(vec3 gap, float reach)
 {
@@ -262,8 +265,8 @@ vec2 hc_walls(hc_path path, ivec2 low, ivec2 high, float s)
                     hc_reaches(path.place.y, path.along.y, y)), vec2(s));
 }
 
-/* Over the wall, or the corner, that comes first. The index moves by the wall: a position on a wall,
- * rounded, may give back the cell it came from, and the ray would stall. */
+/* Over the wall, or the corner, that comes first. The index moves by the wall: a position on a
+ * wall, rounded, may give back the cell it came from, and the ray would stall. */
 ivec2 hc_cross(hc_path path, ivec2 cell, vec2 walls)
 {
     float first = min(walls.x, walls.y);
@@ -276,9 +279,10 @@ ivec2 hc_cross(hc_path path, ivec2 cell, vec2 walls)
 ivec2 hc_jump(hc_path path, ivec2 cell, float s)
 {
     ivec2 there = ivec2(floor(hc_at(path, s).xy));
-    cell.x = path.along.x > 0.0 ? max(cell.x, there.x) : path.along.x < 0.0 ? min(cell.x, there.x) : cell.x;
-    cell.y = path.along.y > 0.0 ? max(cell.y, there.y) : path.along.y < 0.0 ? min(cell.y, there.y) : cell.y;
-    return cell;
+    ivec2 ahead = max(cell, there);
+    ivec2 back  = min(cell, there);
+    return ivec2(path.along.x > 0.0 ? ahead.x : path.along.x < 0.0 ? back.x : cell.x,
+                 path.along.y > 0.0 ? ahead.y : path.along.y < 0.0 ? back.y : cell.y);
 }
 
 /* ---- safe: cones that the surface does not enter, and patches -------------------------------- */
@@ -291,16 +295,18 @@ float hc_cell_slope(ivec2 cell, int channel)
     return 1.0 / max(texelFetch(hc_ratios, hc_index(cell), 0)[channel], 1e-30);
 }
 
-/* docs/algorithms.md, sections 4 and 19.3, has the proof. A cone that leads out of the cell carries the
- * ray, else the patch decides and the ray goes over the wall. */
+/* docs/algorithms.md, sections 4 and 19.3, has the proof. A cone that leads out of the cell
+ * carries the ray, else the patch decides and the ray goes over the wall. */
 hc_found hc_march_safe(hc_path path)
 {
     float run     = dot(abs(path.along.xy), 1.0 / hc_steps);
-    int   channel = HC_CONE_CHANNELS == 1 ? 0
-                                          : (path.along.x < 0.0 ? 1 : 0) + (path.along.y < 0.0 ? 2 : 0);
+    int   channel = (path.along.x < 0.0 ? 1 : 0) + (path.along.y < 0.0 ? 2 : 0);
     float s       = path.from;
     ivec2 cell    = path.cell;
     int   steps   = 0;
+    if (HC_CONE_CHANNELS == 1) {
+        channel = 0;
+    }
     for (int most = 0; most < 65536; most++) {
         vec3  gap   = hc_gap_of(hc_patch_of(cell), path, cell, s);
         vec2  walls = hc_walls(path, cell, cell + 1, s);
@@ -341,8 +347,8 @@ hc_found hc_march_safe(hc_path path)
 
 #if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
 
-/* The node of a level that a cell is in: its cells low .. high - 1, and its bound. Above single cells
- * the first and the last node of an unwrapped axis have what lies at the border, too. */
+/* The node of a level that a cell is in: its cells low .. high - 1, and its bound. Above single
+ * cells the first and the last node of an unwrapped axis have what lies at the border, too. */
 float hc_node(ivec2 cell, int level, out ivec2 low, out ivec2 high)
 {
     ivec2 side  = max(hc_size >> level, ivec2(1));
@@ -370,8 +376,8 @@ float hc_node(ivec2 cell, int level, out ivec2 low, out ivec2 high)
     return texelFetch(hc_bounds, which, level).r;
 }
 
-/* WSCG 2009, 3 to 5: a node whose bound the ray stays above is crossed, and the next one looked for a
- * level higher; else down a level, first to the height of the bound if the ray falls. */
+/* WSCG 2009, 3 to 5: a node whose bound the ray stays above is crossed, and the next one looked
+ * for a level higher; else down a level, first to the height of the bound if the ray falls. */
 hc_found hc_march_maxmip(hc_path path)
 {
     float s       = path.from;
@@ -471,12 +477,13 @@ float hc_refine(hc_path path, float above, float below, inout int steps)
 /* One offset, limited (Welsh 2004). */
 hc_found hc_march_parallax(hc_path path)
 {
-    float s = path.from
-              + hc_image_gap(path, path.from) / length(vec3(path.along.xy / hc_steps, path.along.z));
+    float length_ = length(vec3(path.along.xy / hc_steps, path.along.z));
+    float s       = path.from + hc_image_gap(path, path.from) / length_;
     return hc_found(path.along.z < 0.0 && s <= hc_image_end(path) ? s : HC_MISS, 0, 1);
 }
 
-/* The first of hc_step_count equal steps that is at or under the surface, and the place before it. */
+/* The first of hc_step_count equal steps that is at or under the surface, and the place before
+ * it. */
 vec2 hc_first_below(hc_path path, inout int steps)
 {
     float last  = path.from;
@@ -558,7 +565,8 @@ float hc_cone_step(hc_path path, float run, float gap, float ratio)
 /* The width of a texel, as a length along the ray. */
 float hc_texel_step(hc_path path)
 {
-    return 1.0 / (max(hc_steps.x, hc_steps.y) * length(vec3(path.along.xy / hc_steps, path.along.z)));
+    float length_ = length(vec3(path.along.xy / hc_steps, path.along.z));
+    return 1.0 / (max(hc_steps.x, hc_steps.y) * length_);
 }
 
 /* The step of this method from s, `gap` above the surface. */
@@ -580,7 +588,8 @@ float hc_step_of(hc_path path, float run, float s, float gap)
     return HC_METHOD == HC_CONE_EXACT ? cone + hc_texel_step(path) : cone;
 }
 
-/* Step until below the surface, out of the box, or out of steps; then what the method does there. */
+/* Step until below the surface, out of the box, or out of steps; then what the method does
+ * there. */
 hc_found hc_march_cones(hc_path path)
 {
     float run   = length(path.along.xy / hc_steps);
@@ -636,8 +645,8 @@ hc_found hc_march_cones(hc_path path)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
-/* To the box of the field. through: the axis of the side it comes in by, 2 from above, 3 if it starts
- * in the box. False: it passes by. */
+/* To the box of the field. through: the axis of the side it comes in by, 2 from above, 3 if it
+ * starts in the box. False: it passes by. */
 bool hc_enter(vec3 origin, vec3 direction, float t_max, out hc_path path, out int through)
 {
     vec2  turns = floor(origin.xy);
@@ -668,8 +677,8 @@ bool hc_enter(vec3 origin, vec3 direction, float t_max, out hc_path path, out in
     return path.from <= path.end;
 }
 
-/* The first hit of origin + t * direction, 0 <= t <= t_max. The field is solid below its surface: a ray
- * that starts there hits at once (HC_INSIDE), one that comes in through a side wall hits it
+/* The first hit of origin + t * direction, 0 <= t <= t_max. The field is solid below its surface:
+ * a ray that starts there hits at once (HC_INSIDE), one that comes in through a side wall hits it
  * (HC_SIDE). */
 hc_hit hc_nearest(vec3 origin, vec3 direction, float t_max)
 {
@@ -692,8 +701,9 @@ hc_hit hc_nearest(vec3 origin, vec3 direction, float t_max)
 
 /* ---- tangent space, normals, depth ----------------------------------------------------------- */
 
-/* A direction of the world -> texture space: unit vectors along u, along v and outwards, world units
- * per tile, and the world depth of the relief. Positions likewise, from the place where height is 0. */
+/* A direction of the world -> texture space: unit vectors along u, along v and outwards, world
+ * units per tile, and the world depth of the relief. Positions likewise, from the place where
+ * height is 0. */
 vec3 hc_to_texture(vec3 world, vec3 along_u, vec3 along_v, vec3 outwards, vec2 scale, float depth)
 {
     return vec3(dot(world, along_u) / scale.x, dot(world, along_v) / scale.y,
@@ -714,11 +724,13 @@ vec2 hc_patch_slopes(vec2 uv)
 vec2 hc_central_slope(ivec2 texel)
 {
     bvec2 back  = bvec2(hc_wraps.x || texel.x > 0, hc_wraps.y || texel.y > 0);
-    bvec2 ahead = bvec2(hc_wraps.x || texel.x < hc_size.x - 1, hc_wraps.y || texel.y < hc_size.y - 1);
-    vec2  span  = max(vec2(back) + vec2(ahead), vec2(1.0));
-    vec2  low   = vec2(hc_sample(texel - ivec2(int(back.x), 0)), hc_sample(texel - ivec2(0, int(back.y))));
-    vec2  high  = vec2(hc_sample(texel + ivec2(int(ahead.x), 0)), hc_sample(texel + ivec2(0, int(ahead.y))));
-    return (high - low) / span;
+    bvec2 ahead = bvec2(hc_wraps.x || texel.x < hc_size.x - 1,
+                        hc_wraps.y || texel.y < hc_size.y - 1);
+    ivec2 b     = ivec2(back);
+    ivec2 a     = ivec2(ahead);
+    vec2  low   = vec2(hc_sample(texel - ivec2(b.x, 0)), hc_sample(texel - ivec2(0, b.y)));
+    vec2  high  = vec2(hc_sample(texel + ivec2(a.x, 0)), hc_sample(texel + ivec2(0, a.y)));
+    return (high - low) / max(vec2(a + b), vec2(1.0));
 }
 
 /* The slopes that the 2006 paper stores with each texel: heights per step of a texel. */
@@ -740,12 +752,14 @@ vec2 hc_smooth_slopes(vec2 uv)
     vec2  place = uv * hc_steps - hc_zero - half_;
     ivec2 cell  = ivec2(floor(place));
     vec2  f     = place - vec2(cell);
+    ivec2 below = cell + ivec2(0, 1);
     vec2  upper = mix(hc_stored_slope(cell), hc_stored_slope(cell + ivec2(1, 0)), f.x);
-    vec2  lower = mix(hc_stored_slope(cell + ivec2(0, 1)), hc_stored_slope(cell + ivec2(1, 1)), f.x);
+    vec2  lower = mix(hc_stored_slope(below), hc_stored_slope(below + ivec2(1, 0)), f.x);
     return mix(upper, lower, f.y) * hc_steps;
 }
 
-/* The relief's normal in the world: that of the body, bent by the slopes. Names as in hc_to_texture. */
+/* The relief's normal in the world: that of the body, bent by the slopes. Names as in
+ * hc_to_texture. */
 vec3 hc_normal(vec2 slopes, vec3 along_u, vec3 along_v, vec3 outwards, vec2 scale, float depth)
 {
     vec2 steep = depth * slopes / scale;
@@ -761,15 +775,15 @@ float hc_fragment_depth(float distance_, float near, float far)
 
 /* ---- distance -------------------------------------------------------------------------------- */
 
-/* Steps that are enough at a distance, where a tile covers fewer pixels: all of hc_step_count within
- * `near`, `least` beyond `far`. Set hc_step_count to it. */
+/* Steps that are enough at a distance, where a tile covers fewer pixels: all of hc_step_count
+ * within `near`, `least` beyond `far`. Set hc_step_count to it. */
 int hc_steps_for(float distance_, float near, float far, int most, int least)
 {
     return int(mix(float(most), float(least), smoothstep(near, far, distance_)) + 0.5);
 }
 
-/* Share of the relief that is left at a distance: 1 before `near`, 0 beyond `far`. Multiply the depth
- * with it, and the slopes, and there is no seam where a plain polygon takes over. */
+/* Share of the relief that is left at a distance: 1 before `near`, 0 beyond `far`. Multiply the
+ * depth with it, and the slopes, and there is no seam where a plain polygon takes over. */
 float hc_fade(float distance_, float near, float far)
 {
     return 1.0 - smoothstep(near, max(far, near + 1e-6), distance_);

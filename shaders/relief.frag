@@ -1,9 +1,9 @@
-/* relief.frag: relief on a plane, a cylinder, a sphere or a torus, a ray for each pixel. Stands behind
- * heightcast.glsl, whose marchers it uses, and draws what heightcast/render.h describes; functions
- * are named as in src/render and stand in the same order.
+/* relief.frag: relief on a plane, a cylinder, a sphere or a torus, a ray for each pixel. Stands
+ * behind heightcast.glsl, whose marchers it uses, and draws what heightcast/render.h describes;
+ * functions are named as in src/render and stand in the same order.
  *
- * It shows how to use those marchers: bodies and the curved rays round them (place_of, along_shell),
- * normals (shade), shadows (in_shadow), depth for the depth buffer (main). */
+ * It shows how to use those marchers: bodies and the curved rays round them (place_of,
+ * along_shell), normals (shade), shadows (in_shadow), depth for the depth buffer (main). */
 
 /* Bodies, as HC_BODY: */
 #define PLANE 0
@@ -11,8 +11,8 @@
 #define SPHERE 2
 #define TORUS 3
 
-uniform vec3  u_eye, u_forward, u_right, u_down; /* forward: unit; right, down: to the picture's edges,
-                                                    at distance 1 or, orthographic, in the world */
+/* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
+uniform vec3  u_eye, u_forward, u_right, u_down;
 uniform bool  u_orthographic;
 uniform vec2  u_picture;     /* pixels */
 uniform float u_first_row;   /* rows are drawn from the top, some at a time */
@@ -22,8 +22,7 @@ uniform vec2  u_depth_range; /* near and far plane */
 uniform int   u_body;
 uniform bool  u_discard;         /* plane: only rays through the top face */
 uniform float u_depth;           /* of the relief, in the world */
-uniform vec2  u_fade;            /* distances where it begins to sink into the hull, and is gone; y 0:
-                                    never */
+uniform vec2  u_fade;            /* where it begins to sink into the hull, and is gone; 0: never */
 uniform float u_radius, u_ring;  /* of the hull; of the circle a torus goes along */
 uniform vec2  u_half;            /* half sides of the plane; y: half the cylinder's height */
 uniform vec2  u_repeat;          /* tiles */
@@ -56,11 +55,12 @@ float relief_depth;
 #define BEND (1.0 / 512.0)
 #define RADIUS_LEAST 0.004
 
-/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field that
- * wraps would begin. */
+/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field
+ * that wraps would begin. */
 #define BRINK 1e-6
 
-/* ---- angles: what atan gives is too coarse on some cards -------------------------------------- */
+/* ---- angles: what atan gives is too coarse on some cards
+ * -------------------------------------- */
 
 float arctangent(float x)
 {
@@ -85,7 +85,8 @@ float angle(float y, float x)
     return y < 0.0 ? -turn : turn;
 }
 
-/* ---- bodies ----------------------------------------------------------------------------------- */
+/* ---- bodies
+ * ----------------------------------------------------------------------------------- */
 
 /* Distance from where the hull's radius is counted: an axis, a point, a circle. */
 float from_core(vec3 point)
@@ -97,7 +98,8 @@ float from_core(vec3 point)
 vec3 place_of(vec3 point)
 {
     if (u_body == PLANE) {
-        return vec3(u_repeat * (0.5 + vec2(0.5, -0.5) * point.xy / u_half), 1.0 + point.z / relief_depth);
+        vec2 uv = 0.5 + vec2(0.5, -0.5) * point.xy / u_half;
+        return vec3(u_repeat * uv, 1.0 + point.z / relief_depth);
     }
     float flat_ = length(point.xy) - u_ring;
     float v     = 0.5 - 0.5 * point.z / u_half.y;
@@ -145,7 +147,8 @@ frame frame_at(vec3 point)
     return f;
 }
 
-/* ---- sights: what a ray of the world comes to ------------------------------------------------- */
+/* ---- sights: what a ray of the world comes to
+ * ------------------------------------------------- */
 
 struct sight {
     float distance_; /* HC_MISS: nothing */
@@ -299,7 +302,8 @@ float faded(vec3 origin, vec3 direction)
     return u_fade.y > 0.0 ? max(hc_fade(span.x, u_fade.x, u_fade.y), FLATTEST) : 1.0;
 }
 
-/* ---- light ------------------------------------------------------------------------------------ */
+/* ---- light
+ * ------------------------------------------------------------------------------------ */
 
 vec3 albedo_texel(ivec2 texel)
 {
@@ -355,7 +359,8 @@ vec3 shade(sight s, vec3 normal, vec3 point, vec3 direction)
     return colour;
 }
 
-/* ---- pixels ----------------------------------------------------------------------------------- */
+/* ---- pixels
+ * ----------------------------------------------------------------------------------- */
 
 void main(void)
 {
@@ -373,7 +378,7 @@ void main(void)
     vec3  normal    = hit ? normal_at(s, point) : vec3(0.0);
     o_light         = vec4(hit ? shade(s, normal, point, direction) : vec3(0.0), s.distance_);
     o_normal        = vec4(normal, s.place.z);
-    o_counts        = vec4(float(s.steps), fetches, s.entered ? 1.0 : 0.0, s.unconverged ? 1.0 : 0.0);
-    gl_FragDepth    = hit ? hc_fragment_depth(s.distance_ * dot(direction, u_forward), u_depth_range.x,
-                                              u_depth_range.y) : 1.0;
+    o_counts        = vec4(float(s.steps), fetches, float(s.entered), float(s.unconverged));
+    float along     = s.distance_ * dot(direction, u_forward);
+    gl_FragDepth    = hit ? hc_fragment_depth(along, u_depth_range.x, u_depth_range.y) : 1.0;
 }

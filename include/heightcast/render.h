@@ -39,24 +39,25 @@ typedef enum hc_edge { HC_EDGE_WALL = 0, HC_EDGE_DISCARD } hc_edge;
 HC_API const char *hc_edge_name(hc_edge edge); /* "wall", "discard"; static */
 
 typedef struct hc_relief {
-    hc_field         field; /* heights are borrowed                                        */
-    hc_trace_options trace; /* method and what it needs, steps, refinements. The ratios are
-                               those of `field`. The placement must be zero, the surface
-                               bilinear; open_sides and threads do not count               */
+    hc_field         field; /* heights are borrowed */
+    hc_trace_options trace; /* method and what it needs, steps, refinements. The ratios are those of
+                               `field`. The placement must be zero, the surface bilinear;
+                               open_sides and threads do not count */
     hc_body          body;
     hc_edge          edge;
-    float            depth;  /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12   */
-    float            aspect; /* plane: y side over x side; 0: height / width of the field    */
+    float            depth;  /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12 */
+    float            aspect; /* plane: y side over x side; 0: height / width of the field */
     float fade[2];   /* distances from the eye, to where a ray comes to the body's box or ball, at
-                      which the relief begins to sink into the hull and is gone; so there is no
-                      seam where an engine takes a plain polygon. 0 0: never */
-    int   repeat[2]; /* tiles along u and v  [1 .. 256]  0: plane 1 1, cylinder 2 1,
-                                   sphere 4 2, torus 4 2                                        */
+                          which the relief begins to sink into the hull and is gone; so there is no
+                          seam where an engine takes a plain polygon. 0 0: never */
+    int   repeat[2]; /* tiles along u and v  [1 .. 256]  0: plane 1 1, cylinder 2 1, sphere 4 2,
+                          torus 4 2 */
 } hc_relief;
 
-/* colour = albedo * (ambient * (0.7 + 0.3 * n_z) + diffuse * cos) + specular * cos_half ^ (2 ^ gloss),
- * in linear light, n being the normal; in shadow only the ambient part. Cut faces (sides of the plane, ends of the cylinder) have
- * `colour`, never the texture. All of ambient, diffuse, specular zero: 0.22, 0.9, 0.12. */
+/* colour = albedo * (ambient * (0.7 + 0.3 * n_z) + diffuse * cos) + specular * cos_half ^ (2 ^
+ * gloss), in linear light, n being the normal; in shadow only the ambient part. Cut faces (sides
+ * of the plane, ends of the cylinder) have `colour`, never the texture. All of ambient, diffuse,
+ * specular zero: 0.22, 0.9, 0.12. */
 typedef struct hc_material {
     const float *albedo; /* albedo_width * albedo_height * 3, row-major, filtered bilinearly; one
                             per tile. NULL: `colour` everywhere                                 */
@@ -98,7 +99,8 @@ typedef struct hc_scene {
  * missed       shaded in grey; red where the first hit was lost (the exact one lies nearer by more
  *              than depth / 64, or there is one where the method has none), yellow where one was
  *              made up
- * error        distance from the exact hit, as a heat map that ends at `top`; red where it alone hits,
+ * error        distance from the exact hit, as a heat map that ends at `top`; red where it alone
+ * hits,
  *              yellow where the method alone does */
 typedef enum hc_view {
     HC_VIEW_SHADED = 0,
@@ -146,18 +148,18 @@ typedef struct hc_picture {
     hc_render_figures figures; /* [out] */
 } hc_picture;
 
-/* Draw `scene` into `picture`. The CPU gives the same bytes on every machine and for every number of
- * threads; GL agrees with it but for rounding in float32 (docs/algorithms.md, section 21.4).
+/* Draw `scene` into `picture`. The CPU gives the same bytes on every machine and for every number
+ * of threads; GL agrees with it but for rounding in float32 (docs/algorithms.md, section 21.4).
  *
  * On round bodies the ray is bent in texture space: it is followed in straight pieces that are
  * nowhere farther than 1/512 of the relief's depth from it, and a method starts anew on each. So
  * cones stay as safe as they are on the plane; docs/algorithms.md has the bound.
  *
- * Memory: 76 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers
- * out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY, on the GPU too;
- * HC_ERROR_CANCELLED. gl: HC_ERROR_UNSUPPORTED where there is no EGL, or no OpenGL 4.3, or this build
- * has none, and for fast; HC_ERROR_LIMIT for fields and pictures that are too large for it;
- * HC_ERROR_IO if the context is lost. */
+ * Memory: 76 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for
+ * numbers out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY, on the GPU
+ * too; HC_ERROR_CANCELLED. gl: HC_ERROR_UNSUPPORTED where there is no EGL, or no OpenGL 4.3, or
+ * this build has none, and for fast; HC_ERROR_LIMIT for fields and pictures that are too large for
+ * it; HC_ERROR_IO if the context is lost. */
 HC_API hc_result hc_render(hc_picture *picture, const hc_scene *scene,
                            const hc_render_options *options, hc_log *log);
 

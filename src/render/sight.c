@@ -11,8 +11,8 @@ static const double BEND = 1.0 / 512.0;
 /* Near the axis, where u turns ever faster, pieces do not get shorter than on this radius. */
 static const double RADIUS_LEAST = 0.004;
 
-/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field that
- * wraps would begin. */
+/* Rays end so far before the sides of the plane, in tiles: beyond them the next tile of a field
+ * that wraps would begin. */
 static const double BRINK = 1e-6;
 
 enum { PIECES_MAX = 1024 }; /* far more than a ray needs; a bound for NaNs */

@@ -1,4 +1,5 @@
-/* What a ray of the world comes to: the shell of a body, straight pieces in texture space, a hit. */
+/* What a ray of the world comes to: the shell of a body, straight pieces in texture space, a
+ * hit. */
 #ifndef HC_RENDER_SIGHT_H
 #define HC_RENDER_SIGHT_H
 

@@ -1,5 +1,6 @@
-/* The map of the 2006 paper, eight bits a channel, straight into the shader: distances as the CPU has
- * them on the decoded map, normals as its stored slopes allow. Skipped where there is no OpenGL. */
+/* The map of the 2006 paper, eight bits a channel, straight into the shader: distances as the CPU
+ * has them on the decoded map, normals as its stored slopes allow. Skipped where there is no
+ * OpenGL. */
 #include "render/stage.h"
 
 #include <heightcast/bake.h>
@@ -130,9 +131,7 @@ static void to_codes(hc_picture *picture)
 static void the_map_is_read_as_it_is(void **state)
 {
     const hc_field          field   = bake_map();
-    hc_scene                scene   = { .relief = { .field = field,
-                                                    .trace = { .method = HC_TRACE_CONE_LOOP, .ratios = ratios },
-                                                    .body = HC_BODY_PLANE } };
+    hc_scene                scene   = { .relief = { .field = field, .body = HC_BODY_PLANE } };
     hc_picture              cpu     = { .width = WIDE, .height = HIGH, .rgb = rgb, .depth = depth };
     const hc_render_options options = { .view = HC_VIEW_NORMAL };
     unsigned                textures[HC_GL_TEXTURES] = { 0 };
@@ -140,7 +139,8 @@ static void the_map_is_read_as_it_is(void **state)
     hc_stage                stage;
     hc_log                  log = { .text = "" };
     (void)state;
-    scene.relief.trace.steps = 64;
+    scene.relief.trace =
+        (hc_trace_options){ .method = HC_TRACE_CONE_LOOP, .ratios = ratios, .steps = 64 };
     if (hc_gl_open(&context, &log) == HC_ERROR_UNSUPPORTED) {
         print_message("%s\n", log.text);
         skip();

@@ -1,5 +1,5 @@
-/* The shaders against the CPU: every method on every body, shadows and all; skipped where there is no
- * OpenGL. */
+/* The shaders against the CPU: every method on every body, shadows and all; skipped where there is
+ * no OpenGL. */
 #include <heightcast/bake.h>
 #include <heightcast/render.h>
 
@@ -184,8 +184,8 @@ static void views_and_albedo(void **state)
 
 /* ---- hits ------------------------------------------------------------------------------------ */
 
-/* Where both hit, depths agree: docs/algorithms.md, section 21.4, has the bound, which is for angles of
- * at least 1/64 between ray and surface. Sharper ones are as rare as edges. */
+/* Where both hit, depths agree: docs/algorithms.md, section 21.4, has the bound, which is for
+ * angles of at least 1/64 between ray and surface. Sharper ones are as rare as edges. */
 static void depths_agree(void **state)
 {
     (void)state;

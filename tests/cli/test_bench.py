@@ -109,8 +109,8 @@ class Bench(Case):
         return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", *options, "--json"))
 
     def test_render(self):
-        report = json.loads(self.text("bench", "render", "--sizes", 32, "--size", "48x32", "--repeat",
-                                      1, "--csv", "render.csv", "--json"))
+        report = json.loads(self.text("bench", "render", "--sizes", 32, "--size", "48x32",
+                                      "--repeat", 1, "--csv", "render.csv", "--json"))
         rows = report["rows"]
         self.assertEqual(len(rows), 24 + 15)
         quick = [row for row in rows if row["method"] in ("quick", "relaxed")]

@@ -15,8 +15,8 @@ SMALL = ["--size", "32x24", "--samples", "1", "--overwrite"]
 
 class Render(Case):
     def render(self, *arguments, field=None, out="a.png", **options):
-        return self.json("render", "relief", field or self.hills(), "--out", out, *SMALL, *arguments,
-                         **options)
+        return self.json("render", "relief", field or self.hills(), "--out", out, *SMALL,
+                         *arguments, **options)
 
     def picture(self, *arguments, **options):
         self.render(*arguments, **options)
@@ -75,7 +75,8 @@ class Render(Case):
 
     def test_scene_options_change_the_picture(self):
         plain = self.picture()
-        for option in [["--depth", "0.4"], ["--repeat", "3"], ["--repeat", "2,1"], ["--aspect", "0.5"],
+        for option in [["--depth", "0.4"], ["--repeat", "3"], ["--repeat", "2,1"],
+                       ["--aspect", "0.5"],
                        ["--fade", "1:5"],
                        ["--camera", "0,-3,3"], ["--ortho", "3"], ["--fov", "60"],
                        ["--light", "1,0,0.2"], ["--lamp", "0,0,1"], ["--shadows", "off"],
@@ -89,7 +90,8 @@ class Render(Case):
 
     def test_edges(self):
         flat = ["--camera", "0,-4,0.05"]
-        self.assertGreater(self.render(*flat)["hits"], self.render(*flat, "--edge", "discard")["hits"])
+        polygon = self.render(*flat, "--edge", "discard")
+        self.assertGreater(self.render(*flat)["hits"], polygon["hits"])
 
     def test_albedo(self):
         self.path("red.ppm").write_bytes(b"P6\n1 1\n255\n" + bytes([200, 0, 0]))
@@ -109,8 +111,8 @@ class Render(Case):
         figures = self.render(field="map.exr")
         self.assertNotIn("bake", figures["seconds"])
         self.assertGreater(figures["hits"], 100)
-        self.refused("render", "relief", "map.exr", "--out", "b.png", "--object", "torus", code=USAGE,
-                     says=["field.wrap is none", "torus"])
+        self.refused("render", "relief", "map.exr", "--out", "b.png", "--object", "torus",
+                     code=USAGE, says=["field.wrap is none", "torus"])
 
     def test_float_outputs(self):
         self.render("--depth-out", "depth.npy", "--camera", "0,0,3", "--ortho", "4", out="a.exr")
@@ -156,14 +158,16 @@ class Render(Case):
             (["relief", field, "--out", "b.png", "--cones", "l2"], "l1 or quad"),
             (["relief", field, "--out", "b.png", "--object", "torus", "--depth", "0.5"],
              "relief.depth is 0.5"),
-            (["relief", field, "--out", "b.png", "--repeat", "2", "--wrap", "none"], "wraps along u"),
+            (["relief", field, "--out", "b.png", "--repeat", "2", "--wrap", "none"],
+             "wraps along u"),
             (["relief", field, "--out", "b.png", "--method", "reference"], "allowed are fast"),
             (["relief", field, "--out", "b.png", "--samples", "0"], "1 to 256"),
             (["relief", field, "--out", "b.png", "--size", "65537"], "65536"),
         ]:
             with self.subTest(says=says):
                 self.refused("render", *arguments, code=USAGE, says=says)
-        self.refused("render", "relief", "none.pgm", "--out", "b.png", code=INPUT_OUTPUT, says="none")
+        self.refused("render", "relief", "none.pgm", "--out", "b.png", code=INPUT_OUTPUT,
+                     says="none")
         self.path("bad.pgm").write_bytes(b"P5 3")
         self.refused("render", "relief", "bad.pgm", "--out", "b.png", code=BAD_FILE, says="bad.pgm")
         self.path("a.png").write_bytes(b"precious")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Compile the shaders with the reference compiler: every method, both languages, both kinds of maps; and
-# see that it would complain.
+# Compile the shaders with the reference compiler: every method, both languages, both kinds of
+# maps; and see that it would complain.
 # usage: check_shaders.sh ROOT FOLDER
 set -euo pipefail
 shaders=$1/shaders

@@ -78,8 +78,8 @@ static double wrong(const hc_bench_render_row *row)
     return row->lost + row->made_up;
 }
 
-/* On the field of `like`: the first row of the method that is true enough, else the truest; NULL: it
- * has none. */
+/* On the field of `like`: the first row of the method that is true enough, else the truest; NULL:
+ * it has none. */
 static const hc_bench_render_row *truest(const report *r, const hc_bench_render_row *like,
                                          const char *method)
 {

@@ -8,8 +8,8 @@ typedef struct hc_gl_context {
     void *display, *context; /* NULL: not there */
 } hc_gl_context;
 
-/* Make an OpenGL 4.3 core context and make it the calling thread's. HC_ERROR_UNSUPPORTED says what is
- * missing. hc_gl_close must follow, whatever the result. */
+/* Make an OpenGL 4.3 core context and make it the calling thread's. HC_ERROR_UNSUPPORTED says what
+ * is missing. hc_gl_close must follow, whatever the result. */
 hc_result hc_gl_open(hc_gl_context *context, hc_log *log);
 void      hc_gl_close(hc_gl_context *context);
 

@@ -27,8 +27,8 @@ static int count_lines(const char *text)
     return lines;
 }
 
-/* Drivers write "0:23(4): error: ..." or "0(23) : error ...", and what #line says about files does not
- * come through all of them: so lines are counted over all texts. */
+/* Drivers write "0:23(4): error: ..." or "0(23) : error ...", and what #line says about files does
+ * not come through all of them: so lines are counted over all texts. */
 static hc_result complain(const char *message, const char *head, const hc_shader_text *files,
                           hc_log *log)
 {
