@@ -1,6 +1,6 @@
 /* The map of the 2006 paper, eight bits a channel, straight into the shader: distances as the CPU
- * has them on the decoded map, normals as its stored slopes allow. Skipped where there is no
- * OpenGL. */
+ * has them on the decoded map, normals as its stored slopes allow, the depth buffer as polygons
+ * fill it. Skipped where there is no OpenGL. */
 #include "render/stage.h"
 
 #include <heightcast/bake.h>
@@ -27,6 +27,7 @@ enum { SIDE = 32, WIDE = 64, HIGH = 48, PIXELS = WIDE * HIGH };
 static float   heights[SIDE * SIDE], ratios[SIDE * SIDE];
 static uint8_t texels[SIDE * SIDE * 4];
 static float   light[PIXELS * 4], normals[PIXELS * 4], depth[PIXELS], rgb[PIXELS * 3];
+static float   buffer[PIXELS]; /* of depths, as polygons would find it */
 
 /* The map, and the field and ratios that it stands for. */
 static hc_field bake_map(void)
@@ -48,7 +49,7 @@ static hc_field bake_map(void)
 static void draw_map(const hc_stage *stage, unsigned program)
 {
     static const GLenum attachments[] = { GL_COLOR_ATTACHMENT0, GL_COLOR_ATTACHMENT1 };
-    unsigned            planes[2], frame, vertices, map;
+    unsigned            planes[2], depths, frame, vertices, map;
     glGenTextures(1, &map);
     glActiveTexture(GL_TEXTURE0 + HC_GL_HEIGHTS);
     glBindTexture(GL_TEXTURE_2D, map);
@@ -64,6 +65,12 @@ static void draw_map(const hc_stage *stage, unsigned program)
         glFramebufferTexture2D(GL_FRAMEBUFFER, attachments[i], GL_TEXTURE_2D, planes[i], 0);
     }
     glDrawBuffers(2, attachments);
+    glGenRenderbuffers(1, &depths);
+    glBindRenderbuffer(GL_RENDERBUFFER, depths);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, WIDE, HIGH);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depths);
+    glEnable(GL_DEPTH_TEST); /* without it nothing is written; and misses are to be, too */
+    glDepthFunc(GL_ALWAYS);
     glGenVertexArrays(1, &vertices);
     glBindVertexArray(vertices);
     glUseProgram(program);
@@ -75,6 +82,7 @@ static void draw_map(const hc_stage *stage, unsigned program)
     glReadPixels(0, 0, WIDE, HIGH, GL_RGBA, GL_FLOAT, light);
     glReadBuffer(GL_COLOR_ATTACHMENT1);
     glReadPixels(0, 0, WIDE, HIGH, GL_RGBA, GL_FLOAT, normals);
+    glReadPixels(0, 0, WIDE, HIGH, GL_DEPTH_COMPONENT, GL_FLOAT, buffer);
     assert_int_equal(hc_gl_check("the map", NULL), HC_OK);
 }
 
@@ -119,6 +127,29 @@ static void expect_agreement(const hc_stage *stage, const hc_picture *cpu)
     assert_in_range(odd, 0, PIXELS / 1000);
 }
 
+/* In the depth buffer lies what the usual projection makes of the hit, so that polygons and relief
+ * hide each other: z of the clip space over its w, from -1 .. 1 to 0 .. 1. */
+static void expect_projected_depths(const hc_stage *stage)
+{
+    const double near = fmax(stage->near, 1e-3);
+    const double far  = stage->far;
+    int          seen = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        double origin[3], direction[3];
+        hc_stage_ray(stage, origin, direction, i % WIDE + 0.5, i / WIDE + 0.5);
+        double along = 0.0;
+        for (int k = 0; k < 3; k++) {
+            along += direction[k] * stage->forward[k] * (double)light[4 * i + 3];
+        }
+        const double clip_z = ((far + near) * along - 2.0 * far * near) / (far - near);
+        const bool   found  = light[4 * i + 3] < 1e29F;
+        const double wanted = found ? 0.5 + 0.5 * clip_z / along : 1.0;
+        assert_true(fabs((double)buffer[i] - wanted) < 1e-5);
+        seen += found && wanted > 0.1 && wanted < 0.9 ? 1 : 0;
+    }
+    assert_true(seen > 300);
+}
+
 /* rgb of the view of normals is linear light; back to 0 .. 1. */
 static void to_codes(hc_picture *picture)
 {
@@ -152,6 +183,7 @@ static void the_map_is_read_as_it_is(void **state)
     draw_map(&stage,
              build("#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"));
     expect_agreement(&stage, &cpu);
+    expect_projected_depths(&stage);
     draw_map(&stage, build("#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"
                            "#define HC_GATHER\n"));
     expect_agreement(&stage, &cpu);
