@@ -167,6 +167,8 @@ class Bench(Case):
     def test_usage(self):
         self.refused("bench", "steps", "--methods", "fast,linear", code=USAGE, says="maxmip")
         self.refused("bench", "terrain", code=USAGE, says="'terrain'")
+        self.refused("bench", "trace", "--backend", "gl", code=USAGE, says="--backend")
+        self.refused("bench", "--size", "9", code=USAGE, says="--size is for bench render")
         self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")
         self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])
         self.refused("bench", "--sizes", "16,", code=USAGE, says="--sizes 16,")

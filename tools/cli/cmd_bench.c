@@ -93,6 +93,11 @@ static int check_arguments(hc_cli *cli)
                            "nothing to measure is called '%s'; bake, trace, steps and render are",
                            settings->paths[0]);
     }
+    if (!asks_for(cli, "render")
+        && (hc_cli_given(settings, "size") || hc_cli_given(settings, "backend"))) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s is for bench render; leave it out",
+                           hc_cli_given(settings, "size") ? "size" : "backend");
+    }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
     int        code      = json_file ? hc_cli_check_output(cli, settings->report) : HC_CLI_DONE;
     if (code == HC_CLI_DONE && settings->csv != NULL) {
