@@ -245,10 +245,8 @@ static int32_t cell_index(const hc_axis *axis, int cell, bool tops)
 
 static bool fill(const hc_tracer *tracer, hc_hit *hit, const hc_path *path, const hc_found *found)
 {
-    hit->steps     = found->steps;
-    hit->crossings = found->crossings;
     const double t = fmax(path->t0 + found->s, path->tmin);
-    if (!(found->s < INFINITY) || !(t <= path->tmax) || !isfinite((float)t)) {
+    if (!(t <= path->tmax) || !isfinite((float)t)) {
         return false;
     }
     hit->t      = (float)((found->flags & HC_HIT_INSIDE) != 0 ? path->tmin : t);
@@ -261,43 +259,49 @@ static bool fill(const hc_tracer *tracer, hc_hit *hit, const hc_path *path, cons
     return true;
 }
 
-/* Decide what the entry decides, else march. */
-static void search(const hc_tracer *tracer, stride *at, hc_path *path, const entry *e,
-                   hc_found *found)
+/* Decide what the entry decides. False: nothing is left to march. */
+static bool decide_entry(const hc_tracer *tracer, stride *at, hc_path *path, const entry *e,
+                         hc_found *found)
 {
     settle(tracer, path, e);
     const hc_cursor start = { path->from, { path->cell[0], path->cell[1] } };
-    if (gap_at_start(tracer, path) <= 0.0) {
-        found->steps = 1;
-        if (e->through == NOTHING) {
-            set_found(found, &start, path->from, HC_HIT_INSIDE);
-            return;
-        }
-        if (e->through == 2 || !tracer->options.open_sides) {
-            set_found(found, &start, path->from, e->through == 2 ? 0 : HC_HIT_SIDE);
-            return;
-        }
-        if (!enter_below(tracer, at, path, found)) {
-            return;
-        }
+    if (gap_at_start(tracer, path) > 0.0) {
+        return true;
     }
-    tracer->march(tracer, path, found);
+    found->steps = 1;
+    if (e->through == NOTHING) {
+        set_found(found, &start, path->from, HC_HIT_INSIDE);
+        return false;
+    }
+    if (e->through == 2 || !tracer->options.open_sides) {
+        set_found(found, &start, path->from, e->through == 2 ? 0 : HC_HIT_SIDE);
+        return false;
+    }
+    return enter_below(tracer, at, path, found);
+}
+
+bool hc_path_begin(const hc_tracer *tracer, hc_path *path, hc_found *found, const hc_ray *ray)
+{
+    *found = (hc_found){ .s = INFINITY };
+    if (!valid(ray)) {
+        return false;
+    }
+    stride at;
+    begin(tracer, &at, path, ray);
+    const entry e = enter(tracer, &at, path, -INFINITY);
+    if (!(e.from <= e.to) || path->t0 + e.from > path->tmax) {
+        return false;
+    }
+    return decide_entry(tracer, &at, path, &e, found);
 }
 
 bool hc_trace_path(const hc_tracer *tracer, hc_hit *hit, const hc_ray *ray)
 {
-    *hit = (hc_hit){ .t = INFINITY };
-    if (!valid(ray)) {
-        return false;
+    hc_path  path;
+    hc_found found;
+    if (hc_path_begin(tracer, &path, &found, ray)) {
+        tracer->march(tracer, &path, &found);
     }
-    stride  at;
-    hc_path path;
-    begin(tracer, &at, &path, ray);
-    const entry e = enter(tracer, &at, &path, -INFINITY);
-    if (!(e.from <= e.to) || path.t0 + e.from > path.tmax) {
-        return false;
-    }
-    hc_found found = { .s = INFINITY };
-    search(tracer, &at, &path, &e, &found);
-    return fill(tracer, hit, &path, &found);
+    *hit = (hc_hit){ .t = INFINITY, .steps = found.steps, .crossings = found.crossings };
+    return found.s < INFINITY && fill(tracer, hit, &path, &found);
 }

@@ -133,14 +133,15 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
            + pages(sizes.blocks * sizeof(hc_fast_block));
 }
 
-hc_result hc_fast_create(hc_fast **fast, const hc_field *field, const hc_trace_options *options,
-                         hc_log *log)
+hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
+                         const hc_trace_options *options, hc_log *log)
 {
     hc_fast *made = malloc(sizeof *made);
     if (made == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
     }
     const layout sizes = plan(made, field, options);
+    made->tracer       = tracer;
     made->isa          = hc_isa_resolve(options->isa);
     made->highest      = (double)highest_of(field);
     made->heights      = take(sizes.heights * sizeof(float));

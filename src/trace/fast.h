@@ -6,8 +6,9 @@
 
 typedef struct hc_fast hc_fast;
 
-hc_result hc_fast_create(hc_fast **fast, const hc_field *field, const hc_trace_options *options,
-                         hc_log *log);
+/* `tracer` is the one that it becomes part of; its axes are known. */
+hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
+                         const hc_trace_options *options, hc_log *log);
 void      hc_fast_destroy(hc_fast *fast);
 size_t    hc_fast_bytes(const hc_field *field, const hc_trace_options *options);
 void      hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach);

@@ -42,6 +42,8 @@ typedef struct hc_fast_axis {
 } hc_fast_axis;
 
 struct hc_fast {
+    const hc_tracer *tracer; /* that it is part of */
+
     hc_fast_axis   x, y;
     double         scale_z, shift_z; /* normalised height of a ray's height */
     double         highest;
@@ -74,14 +76,8 @@ static inline size_t hc_fast_block_at(const hc_fast *fast, int level, int x, int
            + (size_t)(y & ((1 << HC_FAST_BLOCK_BITS) - 1));
 }
 
-/* A ray in cell coordinates, cut to where it can hit. Double: what comes out of it does not depend
- * on how the marching found the place. */
-typedef struct hc_fast_ray {
-    double origin[3], direction[3], inverse[2];
-    double from, to; /* t */
-    bool   emerged;  /* `from` is where it came out of the ground: not a hit      */
-    bool   inside;   /* the ray itself starts at `from`, not at an edge of the field */
-} hc_fast_ray;
+/* Later hits round to infinity as floats. */
+static const double HC_FAST_T_MAX = 0x1.fffffefffffffp127;
 
 typedef struct hc_fast_found {
     double   t;
@@ -89,8 +85,26 @@ typedef struct hc_fast_found {
     uint32_t flags;
 } hc_fast_found;
 
+/* A ray in cell coordinates, cut to where it can hit. Double: what comes out of it does not depend
+ * on how the marching found the place. */
+typedef struct hc_fast_ray {
+    double        origin[3], direction[3], inverse[2];
+    double        from, to; /* t, less t0 */
+    double        t0;
+    double        turns[2]; /* periods to be added to u and v                               */
+    bool          inside;   /* the ray itself starts at `from`, not at an edge of the field */
+    bool          begun;    /* at `from` it is above the surface, and at no side            */
+    hc_fast_found at_once;  /* where it hits, if it is not to be marched               */
+} hc_fast_ray;
+
 /* Fill heights and blocks. */
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log);
+
+typedef enum hc_fast_fate { HC_FAST_MISSES, HC_FAST_HITS, HC_FAST_MARCHES } hc_fast_fate;
+
+/* Begin a ray as the other methods do: for those that may come in under the surface through an open
+ * side, and those that reach a repeating field so far away that rounding loses their place. */
+hc_fast_fate hc_fast_enter(hc_fast_ray *r, const hc_fast *fast, const hc_ray *ray);
 
 typedef struct hc_fast_answer {
     hc_hit  *hits; /* or NULL */

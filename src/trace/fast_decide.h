@@ -28,9 +28,10 @@ typedef struct verdict {
     int32_t cell_x[HC_LANES], cell_y[HC_LANES]; /* that is hit */
 } verdict;
 
-/* Cells on their own: the first root, and when and through which side the ray leaves. */
+/* Cells on their own: the first root, when and through which side the ray leaves, and when it would
+ * leave through the other one. */
 typedef struct test {
-    double  t[HC_LANES], leave[HC_LANES];
+    double  t[HC_LANES], leave[HC_LANES], other[HC_LANES];
     int32_t hit[HC_LANES], open[HC_LANES];
     int32_t across[HC_LANES]; /* leaves along v */
 } test;
@@ -88,6 +89,7 @@ static inline void test_cells(const hc_fast *fast, const batch *b, const int32_t
         const int32_t   in    = (begin[i] >= enter * run) & (q.c > 0.0) & (leave >= enter);
         out->t[i]             = t;
         out->leave[i]         = leave;
+        out->other[i]         = greater(x.leave[i], y.leave[i]);
         out->hit[i]           = in & (t <= leave) & (t <= (double)FLT_MAX);
         out->open[i]          = in & (t > leave);
         out->across[i]        = y.leave[i] < x.leave[i];
@@ -98,7 +100,7 @@ static inline void place_hits(float *out, const hc_fast_axis *axis, const double
                               const double *direction, const double *t)
 {
     for (int i = 0; i < HC_LANES; i++) {
-        out[i] = (float)texture(axis, origin[i] + t[i] * direction[i]);
+        out[i] = (float)texture(axis, origin[i] + t[i] * direction[i], 0.0);
     }
 }
 
@@ -123,7 +125,8 @@ static inline unsigned next_cells(const hc_fast *fast, const batch *b, const tes
 
 /* An open cell is followed by the next one, so that a lane that stands on a wall gets away from it.
  * It goes on a hair behind the wall: there the ray rises faster than the ground, or what the
- * marching allows for rounding is more than the ground rises. */
+ * marching allows for rounding is more than the ground rises. Where the hair might hold a whole
+ * cell, near a corner, nothing is told. */
 static inline void test_next(const hc_fast *fast, const batch *b, const trials *c,
                              const test *first, verdict *v)
 {
@@ -139,8 +142,9 @@ static inline void test_next(const hc_fast *fast, const batch *b, const trials *
         const double  way  = (next.leave[i] - c->from[i]) * run;
         const float   s    = (float)(way * (1.0 + 0x1p-22)); /* not before */
         const int32_t also = (int32_t)(on >> i & 1);
+        const int32_t past = (next.other[i] - next.leave[i]) * run > 0x1p-21 * way;
         v->s[i]            = s;
-        v->clear[i]        = also & next.open[i] & (s > c->s[i] + 0.25F * fast->blur);
+        v->clear[i]        = also & past & next.open[i] & (s > c->s[i] + 0.25F * fast->blur);
         v->t[i]            = (also & next.hit[i]) != 0 ? next.t[i] : v->t[i];
         v->hit[i] |= also & next.hit[i];
     }

@@ -12,9 +12,8 @@
 /* Height above the highest sample where rays enter, so that they enter in the open. */
 static const double HEADROOM = 0x1p-20;
 
-/* A ray that has come out of the ground may seem so far below the next patch, for each cell (and
- * height) that its origin is away. */
-static const double ROUNDING = 0x1p-46;
+/* A ray that is known to be above the surface where it begins may seem so far below. */
+static const double ROUNDING = 0x1p-45;
 
 /* Unlike fmin and fmax these become one instruction; no NaN comes here. */
 static inline double lesser(double a, double b)
@@ -50,6 +49,25 @@ static inline patch patch_at(const hc_fast *fast, double cell_x, double cell_y)
     }
     const size_t right = (size_t)1 << HC_FAST_HEIGHT_BITS;
     return (patch){ (double)*upper, (double)upper[right], (double)*lower, (double)lower[right] };
+}
+
+static inline bool on_wall(const hc_fast_ray *r, int axis)
+{
+    return r->direction[axis] == 0.0 && r->origin[axis] == floor(r->origin[axis]);
+}
+
+/* Along a face between steps a ray touches both: the higher one counts. */
+static inline patch patch_under(const hc_fast *fast, const hc_fast_ray *r, const double cell[2])
+{
+    const bool   walls[2] = { fast->steps && on_wall(r, 0), fast->steps && on_wall(r, 1) };
+    const double x        = walls[0] ? r->origin[0] : cell[0];
+    const double y        = walls[1] ? r->origin[1] : cell[1];
+    patch        p        = patch_at(fast, x, y);
+    for (int i = 1; i < 4 && (walls[0] || walls[1]); i++) {
+        const patch other = patch_at(fast, x - (walls[0] ? i & 1 : 0), y - (walls[1] ? i >> 1 : 0));
+        p                 = other.h00 > p.h00 ? other : p;
+    }
+    return p;
 }
 
 /* The ray's height above the patch, as a quadratic a s^2 + b s + c of the time s after t. */
@@ -168,12 +186,11 @@ static inline bool step(const hc_fast *fast, const hc_fast_ray *r, cursor *c)
 static inline bool hit_cell(const hc_fast *fast, const hc_fast_ray *r, hc_fast_found *found,
                             const cursor *c)
 {
-    const patch  p      = patch_at(fast, c->cell[0], c->cell[1]);
-    quadratic    q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
-    const bool   starts = c->enter == r->from;
-    const double away   = 1.0 + fabs(r->origin[0]) + fabs(r->origin[1]) + fabs(r->origin[2]);
-    if (r->emerged && q.b >= 0.0 && q.c > -ROUNDING * away) {
-        q.c = greater(q.c, 0.0); /* still coming out */
+    const patch p      = patch_under(fast, r, c->cell);
+    quadratic   q      = gap_over(r, &p, c->cell[0], c->cell[1], c->enter);
+    const bool  starts = c->enter == r->from;
+    if (starts && r->begun && q.c > -ROUNDING) {
+        q.c = greater(q.c, 0.0); /* known to be above */
     } else if (q.c <= 0.0) {
         const uint32_t side = starts || fast->steps ? HC_HIT_SIDE : 0;
         *found              = (hc_fast_found){ c->enter, c->cell[0], c->cell[1],
@@ -202,34 +219,10 @@ static inline bool hc_fast_walk(const hc_fast *fast, const hc_fast_ray *r, hc_fa
     return false;
 }
 
-/* Follow a ray that came in through an open side to where it is above the surface; false: it never
- * is. */
-static inline bool hc_fast_emerge(const hc_fast *fast, hc_fast_ray *r)
-{
-    cursor c = cursor_at(fast, r, r->from);
-    do {
-        const patch     p = patch_at(fast, c.cell[0], c.cell[1]);
-        const quadratic q = gap_over(r, &p, c.cell[0], c.cell[1], c.enter);
-        if (q.c > 0.0) {
-            r->emerged = c.enter > r->from;
-            r->from    = c.enter;
-            return true;
-        }
-        const double t      = c.enter + first_root((quadratic){ -q.a, -q.b, -q.c });
-        const bool   leaves = q.c < 0.0 ? t <= c.leave : q.b > 0.0 || (q.b == 0.0 && q.a > 0.0);
-        if (leaves) {
-            r->from    = q.c < 0.0 ? t : c.enter;
-            r->emerged = true;
-            return true;
-        }
-    } while (step(fast, r, &c));
-    return false;
-}
-
-static inline double texture(const hc_fast_axis *axis, double coordinate)
+static inline double texture(const hc_fast_axis *axis, double coordinate, double turns)
 {
     const double u = (coordinate - axis->zero) * axis->step;
-    return axis->wrapped ? u : lesser(greater(u, 0.0), 1.0);
+    return axis->wrapped ? u + turns : lesser(greater(u, 0.0), 1.0);
 }
 
 static inline int32_t cell_index(const hc_fast *fast, const hc_fast_axis *axis, double cell)
@@ -241,9 +234,9 @@ static inline int32_t cell_index(const hc_fast *fast, const hc_fast_axis *axis, 
 static inline void hc_fast_fill(const hc_fast *fast, hc_hit *hit, const hc_fast_ray *r,
                                 const hc_fast_found *found)
 {
-    hit->t      = (float)found->t;
-    hit->u      = (float)texture(&fast->x, r->origin[0] + found->t * r->direction[0]);
-    hit->v      = (float)texture(&fast->y, r->origin[1] + found->t * r->direction[1]);
+    hit->t      = (float)(found->t + r->t0);
+    hit->u      = (float)texture(&fast->x, r->origin[0] + found->t * r->direction[0], r->turns[0]);
+    hit->v      = (float)texture(&fast->y, r->origin[1] + found->t * r->direction[1], r->turns[1]);
     hit->height = (float)(r->origin[2] + found->t * r->direction[2]);
     hit->cell_x = cell_index(fast, &fast->x, found->cell_x);
     hit->cell_y = cell_index(fast, &fast->y, found->cell_y);

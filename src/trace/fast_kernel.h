@@ -169,7 +169,7 @@ static void enqueue_left(job *j)
     prepare(&b, j->fast, j->rays, which);
     for (int i = 0; i < count; i++) {
         hc_fast_ray r;
-        (void)take_ray(&r, j->fast, &b, i);
+        (void)take_ray(&r, j->fast, &b, i, &j->rays[which[i]]);
         go_on(j, &r, left[i].t, &left[i]);
     }
 }
@@ -181,10 +181,10 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
         const int      i    = __builtin_ctz(lanes);
         const leftover from = { .which = which[i] };
         hc_fast_ray    r;
-        if (take_ray(&r, j->fast, b, i)) {
-            go_on(j, &r, r.from, &from);
-        } else {
-            answer_miss(j, which[i], 0, 0);
+        switch (take_ray(&r, j->fast, b, i, &j->rays[which[i]])) {
+        case HC_FAST_MISSES: answer_miss(j, which[i], 0, 0); break;
+        case HC_FAST_HITS: answer_hit(j, which[i], &r, &r.at_once, 0, 0); break;
+        case HC_FAST_MARCHES: go_on(j, &r, r.from, &from); break;
         }
     }
 }
@@ -320,10 +320,12 @@ static void end_segments(job *j, pack *p, unsigned ended)
 /* A trial that was not told: walk over the cells in question. False: that hits nothing. */
 static bool walk_trial(const job *j, const hc_fast_ray *r, int i)
 {
-    const trials *c    = &j->trials;
-    const double  run  = fabs(r->direction[0]) + fabs(r->direction[1]);
-    const double  from = c->from[i] + (double)c->s[i] / run;
-    const double  to   = c->from[i] + ((double)c->s[i] + (double)c->span[i]) / run;
+    const trials *c   = &j->trials;
+    const double  run = fabs(r->direction[0]) + fabs(r->direction[1]);
+    /* On steps a lane that cut a corner may have left out the cell that it cut. */
+    const double  back = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
+    const double  from = c->from[i] + ((double)c->s[i] - back) / run;
+    const double  to   = c->from[i] + (double)(c->s[i] + c->span[i]) / run; /* as the lane counts */
     hc_fast_found found;
     const bool    hit = hc_fast_walk(j->fast, r, &found, from, to);
     if (hit) {
@@ -366,7 +368,7 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
     bool          hit = v->hit[i] != 0;
     if (!hit && v->clear[i] == 0) {
         hc_fast_ray r;
-        (void)take_ray(&r, j->fast, b, i);
+        (void)take_ray(&r, j->fast, b, i, &j->rays[c->which[i]]);
         hit = walk_trial(j, &r, i);
     }
     const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */

@@ -9,6 +9,9 @@
 
 #include <math.h>
 
+/* Periods that double precision bears without a thought for them. */
+static const double FAR_PERIODS = 4.0 * HC_PERIODS_MAX;
+
 typedef struct batch {
     double  origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
     double  from[HC_LANES], to[HC_LANES], tmin[HC_LANES];
@@ -36,7 +39,7 @@ static inline void place_rays(batch *b, const hc_fast *fast, const hc_ray *rays,
                            + fabs((double)columns[2][i]) + fabs((double)columns[3][i]) + length;
         b->tmin[i]  = (double)columns[3][i];
         b->from[i]  = (double)columns[3][i];
-        b->to[i]    = (double)columns[7][i];
+        b->to[i]    = lesser(HC_FAST_T_MAX, (double)columns[7][i]);
         b->meets[i] = (sum < INFINITY) & (length > 0.0) & (b->to[i] >= b->from[i]);
     }
     for (int k = 0; k < 3; k++) {
@@ -111,17 +114,30 @@ static inline void prepare(batch *b, const hc_fast *fast, const hc_ray *rays, co
     }
 }
 
-/* Ray i of a batch; false: it hits nothing. `inside` needs the sides, but not the top: a ray that
- * comes from above starts in the open. */
-static inline bool take_ray(hc_fast_ray *r, const hc_fast *fast, const batch *b, int i)
+/* Along a repeating axis it begins or ends too far away to know its place. */
+static inline bool goes_far(const batch *b, int axis, const hc_fast_axis *a, int i)
 {
+    const double way = greater(fabs(b->from[i]), fabs(b->to[i])) * fabs(b->direction[axis][i]);
+    return a->wrapped && fabs(b->origin[axis][i]) + way > FAR_PERIODS * a->cells;
+}
+
+/* Ray i of a batch, which is `ray`. `inside` needs the sides, but not the top: a ray that comes from
+ * above starts in the open. */
+static inline hc_fast_fate take_ray(hc_fast_ray *r, const hc_fast *fast, const batch *b, int i,
+                                    const hc_ray *ray)
+{
+    const bool inside = b->from[i] == b->tmin[i];
+    if ((fast->open_sides && !inside) || goes_far(b, 0, &fast->x, i)
+        || goes_far(b, 1, &fast->y, i)) {
+        return hc_fast_enter(r, fast, ray);
+    }
     *r = (hc_fast_ray){ .origin    = { b->origin[0][i], b->origin[1][i], b->origin[2][i] },
                         .direction = { b->direction[0][i], b->direction[1][i], b->direction[2][i] },
                         .inverse   = { b->inverse[0][i], b->inverse[1][i] },
                         .from      = b->from[i],
                         .to        = b->to[i],
-                        .inside    = b->from[i] == b->tmin[i] };
-    return b->meets[i] != 0 && (!fast->open_sides || r->inside || hc_fast_emerge(fast, r));
+                        .inside    = inside };
+    return b->meets[i] != 0 ? HC_FAST_MARCHES : HC_FAST_MISSES;
 }
 
 #endif

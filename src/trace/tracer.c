@@ -147,7 +147,7 @@ hc_result hc_tracer_create(hc_tracer **tracer, const hc_field *field,
     if (bytes != 0) {
         result = take_bounds(made, bytes, log);
     } else if (made->march == NULL) {
-        result = hc_fast_create(&made->fast, field, given, log);
+        result = hc_fast_create(&made->fast, made, field, given, log);
     }
     if (result != HC_OK) {
         hc_tracer_destroy(made);
