@@ -191,6 +191,10 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
     return _mm512_permutexvar_epi32(index, _mm512_loadu_si512(table));
 }
 
+/* Without optimisation gcc's gathers are macros, which convert masks in our name. */
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+
 static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
 {
     return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), (__mmask16)lanes, index, base, 4);
@@ -218,6 +222,8 @@ static inline void hc_i_deal(hc_i *first, hc_i *second, __m512i low, __m512i hig
     }
 HC_I_GATHER(hc_gather_pairs, 8)
 HC_I_GATHER(hc_gather_neighbours, 4)
+
+#pragma GCC diagnostic pop
 
 #elif defined(HC_SIMD_AVX2)
 
