@@ -25,9 +25,6 @@ typedef struct runners {
     int32_t steps[HC_LANES], crossings[HC_LANES];
 } runners;
 
-/* After a step of 2 * 4^k cells and more comes level k: half the exponent, less this. */
-enum { LEVEL_BIAS = 64 };
-
 enum { RUNNER_WORDS = sizeof(runners) / (HC_LANES * sizeof(int32_t)) };
 
 typedef struct pack {
@@ -141,13 +138,23 @@ static inline hc_v go_beyond(const hc_fast *fast, hc_i code, hc_i shift, hc_v ab
     return hc_v_max(cone, hc_v_min(way, hc_v_about_over(above, hc_v_max(down, least))));
 }
 
-/* The level after a step. */
-static inline hc_i level_after(const hc_fast *fast, hc_v step, hc_i level, ground kind)
+/* The level after a step: the next coarser one where its block has been left, so that no lane stays
+ * among small blocks for long. Over sparse ground, where small blocks see far, half the step's
+ * exponent: level k, with blocks of 2 * 4^k cells, comes after steps four times as long. */
+static inline hc_i level_after(const hc_fast *fast, const pack *p, const place *at, hc_v step,
+                               hc_i level, hc_i shift, ground kind)
 {
-    const hc_i bias = hc_i_set(kind == GROUND_SPARSE ? -LEVEL_BIAS - 1 : -LEVEL_BIAS);
-    const hc_i fit  = hc_i_add(hc_i_right(hc_v_bits(step), hc_i_set(24)), bias);
-    const hc_i most = hc_i_min(hc_i_add(level, hc_i_set(1)), hc_i_set(fast->levels - 1));
-    return hc_i_min(hc_i_max(fit, hc_i_set(0)), most);
+    const hc_i next = hc_i_min(hc_i_add(level, hc_i_set(1)), hc_i_set(fast->levels - 1));
+    if (kind == GROUND_SPARSE) {
+        const hc_i half = hc_i_right(hc_v_bits(step), hc_i_set(24));
+        return hc_i_min(hc_i_max(hc_i_add(half, hc_i_set(-65)), hc_i_set(0)), next);
+    }
+    const hc_i     wide = hc_i_add(shift, hc_i_set(HC_FAST_RATIO_BITS));
+    const hc_i     to_x = hc_i_from_v(hc_v_about_muladd(step, hc_v_load(p->ray.dx), at->x));
+    const hc_i     to_y = hc_i_from_v(hc_v_about_muladd(step, hc_v_load(p->ray.dy), at->y));
+    const unsigned left = hc_i_differ(hc_i_right(to_x, wide), hc_i_right(at->cell_x, wide))
+                          | hc_i_differ(hc_i_right(to_y, wide), hc_i_right(at->cell_y, wide));
+    return hc_i_pick(left, next, level);
 }
 
 /* One block further, or one level deeper, for the lanes in `active`. Those that stand on a single
@@ -183,7 +190,7 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, ground k
     const unsigned coarse = hc_i_differ(level, hc_i_set(0));
     const unsigned deeper = active & ~clear & coarse;
     const unsigned near   = active & ~clear & ~coarse;
-    const hc_i     next   = level_after(fast, step, level, kind);
+    const hc_i     next   = level_after(fast, p, &at, step, level, shift, kind);
     hc_v_store(p->until, hc_v_pick(near, hc_v_add(at.s, out), hc_v_load(p->until)));
     hc_i_store(p->level,
                hc_i_pick(deeper, hc_i_add(level, hc_i_set(-1)), hc_i_pick(clear, next, level)));
