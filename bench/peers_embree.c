@@ -1,6 +1,6 @@
 /* Embree 3: two triangles a cell, or grids; single rays, packets of sixteen, the same told that
- * they are coherent, streams. Without its robust flag, which makes it faster and lets a ray in 10^5 or so
- * through the edges of triangles. */
+ * they are coherent, streams. Without its robust flag, which makes it faster and lets a ray in 10^5
+ * or so through the edges of triangles. */
 #include "peers.h"
 #include "trace_rays.h"
 

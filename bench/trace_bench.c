@@ -83,8 +83,8 @@ static void *run_part(void *context)
     return NULL;
 }
 
-/* Time of a set on so many threads: by the clock on the wall, on one thread by that of the processor,
- * which other programs disturb less. */
+/* Time of a set on so many threads: by the clock on the wall, on one thread by that of the
+ * processor, which other programs disturb less. */
 static double run_set(const bench *b, const stage *s, int mode, int set, int threads)
 {
     pthread_t       ids[THREADS_MAX];

@@ -43,8 +43,8 @@ USERS = ["tools", "examples", "bench"]
 CORE = ["base", "field", "maps", "bake", "trace", "reference"]
 LIBC = set(
     """assert.h ctype.h errno.h fenv.h float.h inttypes.h limits.h math.h stdalign.h stdarg.h
-    stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h pthread.h sched.h sys/mman.h
-    unistd.h immintrin.h""".split()
+    stdatomic.h stdbool.h stddef.h stdint.h stdio.h stdlib.h string.h time.h pthread.h sched.h
+    sys/mman.h unistd.h immintrin.h""".split()
 )
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

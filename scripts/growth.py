@@ -4,8 +4,8 @@
 usage: growth.py [--program build/heightcast] [--csv bench/results/steps.csv]
                  [--plot docs/gallery/steps.png] [--sizes N,...] [FIELD ...]
 
-Measures with `heightcast bench steps`, which takes an hour for all made fields, and writes the CSV; without any
-FIELD the CSV is taken as it is. The plot needs gnuplot.
+Measures with `heightcast bench steps`, which takes an hour for all made fields, and writes the CSV;
+without any FIELD the CSV is taken as it is. The plot needs gnuplot.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Fire SOAK_RAYS [100000000] rays at fields of every kind and size, and hold the answers of the
-# tracers that lose no first hit against the reference: docs/testing.md. SOAK_SEED [1000] is the seed
-# of the first round.
+# tracers that lose no first hit against the reference: docs/testing.md. SOAK_SEED [1000] is the
+# seed of the first round.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 mkdir -p build

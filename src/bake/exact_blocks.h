@@ -108,8 +108,8 @@ INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int 
 }
 
 /* Choose what a part needs of a list. The lowest line is a concave function of the distance along a
- * unit vector, so between a block's nearest and farthest point it lies above its chord: a plane over
- * the block's samples. No branch depends on what is found; nobody could predict it. */
+ * unit vector, so between a block's nearest and farthest point it lies above its chord: a plane
+ * over the block's samples. No branch depends on what is found; nobody could predict it. */
 INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list,
                           hc_block_choice *chosen)
 {

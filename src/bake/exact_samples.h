@@ -4,8 +4,8 @@
 
 #include "exact_tile.h"
 
-/* One near sample against one part: no test, `weights` are the canonical ones. The order of hc_v_max
- * matters: rise * 0 may be -0, which must not replace S. */
+/* One near sample against one part: no test, `weights` are the canonical ones. The order of
+ * hc_v_max matters: rise * 0 may be -0, which must not replace S. */
 INLINE hc_v take_near(hc_v S, hc_v height, float sample, const float *weights)
 {
     const hc_v rise = hc_v_sub(hc_v_set(sample), height);

@@ -8,11 +8,12 @@
 hc_result hc_highest_allocate(hc_highest *made, int width, int height, hc_log *log)
 {
     const size_t floats = hc_pyramid_size(width, height);
+    float       *values = floats > 0 ? malloc(floats * sizeof *values) : NULL;
     *made               = (hc_highest){ .width  = width,
                                         .height = height,
                                         .levels = hc_pyramid_levels(width, height),
-                                        .values = floats > 0 ? malloc(floats * sizeof(float)) : NULL };
-    if (made->values == NULL) {
+                                        .values = values };
+    if (values == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for the pyramid of %d x %d samples", width,
                        height);
     }

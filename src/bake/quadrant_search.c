@@ -77,12 +77,13 @@ hc_steepest hc_search_quadrant(const hc_quadrant_search *search, int x, int y, i
     const hc_cone_job *job       = search->job;
     const bool         leftwards = (quadrant & 1) != 0;
     const bool         upwards   = (quadrant & 2) != 0;
+    const float        height    = job->heights[(size_t)y * (size_t)job->width + (size_t)x];
     view               self      = { .search    = search,
                                      .x         = x,
                                      .y         = y,
                                      .leftwards = leftwards,
                                      .upwards   = upwards,
-                                     .height = job->heights[(size_t)y * (size_t)job->width + (size_t)x] };
+                                     .height    = height };
     self.columns =
         leftwards ? (hc_span){ x - search->limit[1], x } : (hc_span){ x, x + search->limit[0] };
     self.rows =

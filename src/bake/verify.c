@@ -65,10 +65,10 @@ static void judge_pair(tally *into, const verifying *self, size_t texel, const f
     const int          y      = (int)(texel / (size_t)info->width);
     const bool         none   = stored[0] == 0.0F || stored[1] == 0.0F; /* no cone, no fault */
     const bool         wrong  = !(stored[0] >= 0.0F && stored[1] >= 0.0F);
-    const double       excess = wrong ? INFINITY
-                                : none
-                                    ? 0.0
-                                    : (double)hc_brute_excess(&self->field, x, y, stored[0], stored[1]);
+    double             excess = wrong ? INFINITY : 0.0;
+    if (!wrong && !none) {
+        excess = (double)hc_brute_excess(&self->field, x, y, stored[0], stored[1]);
+    }
     if (excess > 1.0) {
         note_wider(into, 2, excess, texel);
     }

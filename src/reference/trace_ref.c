@@ -3,9 +3,10 @@
  *
  * Positions count in samples. Along an axis the cells are numbered in rising order:
  *   bilinear  cell k lies between the samples k and k + 1
- *   steps     cell 2i is sample i's own flat top, cell 2i + 1 the border strip between the tops i and
- *             i + 1: of no width, or 2 |reach| wide, and as high as the higher of them (the lower if
- *             reach is negative). A strip makes the solid closed: what runs along a face touches it. */
+ *   steps     cell 2i is sample i's own flat top, cell 2i + 1 the border strip between the tops i
+ *             and i + 1: of no width, or 2 |reach| wide, and as high as the higher of them (the
+ *             lower if reach is negative). A strip makes the solid closed: what runs along a face
+ *             touches it. */
 #include <heightcast/ray.h>
 
 #include <math.h>
@@ -159,7 +160,7 @@ static range enter_box(const scene *s, line *l, double bottom)
 
 /* ---- the surface in a cell ----------------------------------------------------------------- */
 
-/* height = base + x * slope_x + y * slope_y + x * y * twist, x and y from the cell's first corner */
+/* height = base + x * slope_x + y * slope_y + x * y * twist, from the cell's first corner */
 typedef struct patch {
     double base, slope_x, slope_y, twist;
     double x, y;

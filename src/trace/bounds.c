@@ -1,5 +1,5 @@
-/* The bounding map: the highest corner of every cell, and the max pyramid of it (of tops, the tops).
- * Nothing of a surface rises above its cells' bounds.
+/* The bounding map: the highest corner of every cell, and the max pyramid of it (of tops, the
+ * tops). Nothing of a surface rises above its cells' bounds.
  * Source: WSCG 2009, section 5. */
 #include "tracer.h"
 
@@ -17,7 +17,7 @@ static float highest_corner(const hc_tracer *tracer, int x, int y)
     return top;
 }
 
-/* Every texel of a level goes into the one above it; the last also takes what odd sizes leave over. */
+/* Every texel of a level goes into the one above it; the last also takes what odd sizes leave. */
 static void reduce(float *coarse, int coarse_width, int coarse_height, const float *fine, int width,
                    int height)
 {

@@ -1,4 +1,5 @@
-/* Rays to the box of the field, in cells; and what is decided there: inside, side walls, open sides.
+/* Rays to the box of the field, in cells; and what is decided there: inside, side walls, open
+ * sides.
  *
  * A ray is moved to the box in several strides, each of which leaves an error of 2^-53 of its
  * length: after the last one the ray is as exact as if it had begun at the box, however far its

@@ -161,7 +161,7 @@ static double cone_or_wall(const hc_tracer *tracer, const hc_path *path, const h
     return wall < INFINITY ? fmax(cone, wall) : cone;
 }
 
-/* A step to the wall may end far under the surface, but only in one cell: that bracket is refined. */
+/* A step to the wall may end far under the surface, but in one cell: that bracket is refined. */
 void hc_march_robust(const hc_tracer *tracer, const hc_path *path, hc_found *found)
 {
     const march m = march_by(cone_or_wall, tracer, path, found);

@@ -1,5 +1,5 @@
-/* Rays that begin where those of the other methods do (clip.c), which take more care than sixteen at
- * a time can take. */
+/* Rays that begin where those of the other methods do (clip.c), which take more care than sixteen
+ * at a time can take. */
 #include "fast_data.h"
 #include "surface.h"
 
@@ -18,8 +18,8 @@ static void begin_at(hc_fast_ray *r, const hc_path *path, const double shift[2])
     r->direction[2] = path->along[2];
 }
 
-/* Not before it comes into its cell by the time of the walls: through a face between steps it is under
- * the cell that it leaves, and above the one that it comes into. */
+/* Not before it comes into its cell by the time of the walls: through a face between steps it is
+ * under the cell that it leaves, and above the one that it comes into. */
 static void begin_in_cell(hc_fast_ray *r, const hc_path *path, const double shift[2])
 {
     for (int i = 0; i < 2; i++) {

@@ -121,8 +121,8 @@ static inline bool goes_far(const batch *b, int axis, const hc_fast_axis *a, int
     return a->wrapped && fabs(b->origin[axis][i]) + way > FAR_PERIODS * a->cells;
 }
 
-/* Ray i of a batch, which is `ray`. `inside` needs the sides, but not the top: a ray that comes from
- * above starts in the open. */
+/* Ray i of a batch, which is `ray`. `inside` needs the sides, but not the top: a ray that comes
+ * from above starts in the open. */
 static inline hc_fast_fate take_ray(hc_fast_ray *r, const hc_fast *fast, const batch *b, int i,
                                     const hc_ray *ray)
 {

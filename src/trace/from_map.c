@@ -38,7 +38,7 @@ static bool has_ratios(const hc_map_info *info, hc_trace_needs needs)
     }
 }
 
-/* Sample ratios as they are; for cells, the least of the corners (docs/algorithms.md, section 6). */
+/* Sample ratios as they are; for cells, the least of the corners: docs/algorithms.md, section 6. */
 static float decoded_ratio(const hc_map *map, hc_trace_needs needs, int x, int y)
 {
     const hc_map_info *info  = &map->info;

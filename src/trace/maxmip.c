@@ -1,9 +1,9 @@
-/* Walking the pyramid of the bounding map. A node whose bound the ray stays above is crossed, and the
- * next one is looked for a level higher; else the ray goes down a level, first to the height of the
- * bound if it falls. In single cells the patch decides. On tops (steps, qdm) the pyramid is that of
- * the samples and single cells are flat.
- * Source: WSCG 2009, sections 3 to 5 (both directions, level raising); Tevs et al. 2008; Drobot 2009
- * (qdm). */
+/* Walking the pyramid of the bounding map. A node whose bound the ray stays above is crossed, and
+ * the next one is looked for a level higher; else the ray goes down a level, first to the height of
+ * the bound if it falls. In single cells the patch decides. On tops (steps, qdm) the pyramid is
+ * that of the samples and single cells are flat.
+ * Source: WSCG 2009, sections 3 to 5 (both directions, level raising); Tevs et al. 2008; Drobot
+ * 2009 (qdm). */
 #include "cursor.h"
 #include "surface.h"
 

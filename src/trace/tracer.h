@@ -78,8 +78,8 @@ static inline double hc_tracer_sample(const hc_tracer *tracer, int x, int y)
 /* clip.c */
 void hc_axis_make(hc_axis *axis, const hc_field *field, const hc_trace_options *options, bool tops,
                   bool vertical);
-/* Follow the ray to where its march begins. False: there is nothing to march, and `found` says where
- * it hits at once, if it does. */
+/* Follow the ray to where its march begins. False: there is nothing to march, and `found` says
+ * where it hits at once, if it does. */
 bool hc_path_begin(const hc_tracer *tracer, hc_path *path, hc_found *found, const hc_ray *ray);
 /* Follow the ray to the box, and march from there. Fills the hit; false: a miss. */
 bool hc_trace_path(const hc_tracer *tracer, hc_hit *hit, const hc_ray *ray);

@@ -178,16 +178,18 @@ static float *bake_for(const hc_field *field, hc_trace_options *options, hc_cone
 
 static void make_target(target *made, const agree_volley *volley, hc_trace_method method)
 {
-    hc_trace_options options = volley->options;
-    hc_log           log     = { .text = "" };
-    options.method           = method;
-    *made                    = (target){ .scene = { .field   = volley->field,
-                                                    .kind    = volley->kind,
-                                                    .method  = hc_trace_method_name(method),
-                                                    .surface = { .surface    = options.surface,
-                                                                 .open_sides = options.open_sides,
-                                                                 .placement  = options.placement } } };
-    made->ratios             = bake_for(volley->field, &options, volley->cones);
+    hc_trace_options options           = volley->options;
+    hc_log           log               = { .text = "" };
+    options.method                     = method;
+    const hc_reference_options surface = { .surface    = options.surface,
+                                           .open_sides = options.open_sides,
+                                           .placement  = options.placement };
+    *made                              = (target){ NULL };
+    made->scene                        = (agree_scene){ .field   = volley->field,
+                                                        .kind    = volley->kind,
+                                                        .method  = hc_trace_method_name(method),
+                                                        .surface = surface };
+    made->ratios                       = bake_for(volley->field, &options, volley->cones);
     if (hc_tracer_create(&made->tracer, volley->field, &options, &log) != HC_OK) {
         fail_msg("%s", log.text);
     }

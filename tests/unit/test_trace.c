@@ -273,7 +273,7 @@ static void cone_steps_halve_the_gap_on_a_diagonal(void **state)
     assert_true(fabsf(hit.t - 1.0F) <= 1.0F / SIDE);
 }
 
-/* From above the funnel's tip, whose cone has ratio 1, along its side: one step goes all the way. */
+/* From above the funnel's tip, whose cone has ratio 1, along its side: one step goes all the way */
 static void a_cone_is_crossed_in_one_step(void **state)
 {
     (void)state;
@@ -333,9 +333,9 @@ static void fan_of_rays(hc_ray *rays, int count)
 {
     for (int i = 0; i < count; i++) {
         const float angle = 10.0F * (float)i / (float)count;
-        rays[i]           = (hc_ray){
-                      { 0.5F, 0.5F, 0.3F }, 0.0F, { 1.0F - angle, angle - 3.0F, 9.0F - angle }, INFINITY
-        };
+        rays[i]           = (hc_ray){ .origin    = { 0.5F, 0.5F, 0.3F },
+                                      .direction = { 1.0F - angle, angle - 3.0F, 9.0F - angle },
+                                      .tmax      = INFINITY };
     }
 }
 

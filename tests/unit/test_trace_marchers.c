@@ -130,8 +130,8 @@ static void linear_reaches_tmax(void **state)
 /* ---- relaxed -------------------------------------------------------------------------------- */
 
 /* A ray that goes into the step does not come out of it, so no relaxed cone is limited by it: from
- * 0.1 at half height, level, one step of 1/2 goes in. The ramp is at that height at 0.5, t = 0.4, and
- * of the 64 parts that six bisections tell apart 52 are the first that are inside. */
+ * 0.1 at half height, level, one step of 1/2 goes in. The ramp is at that height at 0.5, t = 0.4,
+ * and of the 64 parts that six bisections tell apart 52 are the first that are inside. */
 static void relaxed_goes_into_a_step_and_back(void **state)
 {
     (void)state;
@@ -191,8 +191,9 @@ static void robust_comes_back_from_a_far_wall(void **state)
     expect_near((double)hit.t, 0.9 / 64.0 * ceil(truth * 64.0 / 0.9), 1e-6);
 }
 
-/* Across the patch beside the tower, h = (1 - x)(1 - y), on its diagonal x + y = 1: 0 at both walls,
- * 1/4 between them, so a level ray at 1/5 goes in and out of it, first at x = (1 - sqrt(1/5)) / 2. */
+/* Across the patch beside the tower, h = (1 - x)(1 - y), on its diagonal x + y = 1: 0 at both
+ * walls, 1/4 between them, so a level ray at 1/5 goes in and out of it, first at
+ * x = (1 - sqrt(1/5)) / 2. */
 static void robust_loses_what_lies_between_two_walls(void **state)
 {
     (void)state;

@@ -89,8 +89,8 @@ static void add_figure(report *r, cJSON *list, const hc_bench_steps_row *from,
                mean, most99, worst);
 }
 
-/* Growth of the steps when the side doubles, from the middle one of the sides to the last. Steps that
- * grow as its logarithm do by log(last) / log(middle) over all these doublings. */
+/* Growth of the steps when the side doubles, from the middle one of the sides to the last. Steps
+ * that grow as its logarithm do by log(last) / log(middle) over all these doublings. */
 static void add_figures(report *r, const hc_cli_grounds *in)
 {
     cJSON       *list  = cJSON_AddArrayToObject(r->cli->json, "figures");

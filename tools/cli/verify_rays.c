@@ -69,15 +69,17 @@ static hc_result find_bounds(judge *j, double rise, double reach)
         (bounds){ .known = true, .rise = rise, .reach = reach, .first = b->first, .last = b->last };
     hc_cli_phase(j->cli, "reference");
     for (int pass = 0; pass < 2; pass++) {
-        const double               sign    = pass == 0 ? 1.0 : -1.0;
-        half_progress              half    = { j->cli, 0.5 * pass };
-        const hc_reference_options options = { .surface    = j->cli->settings.rays.surface,
-                                               .open_sides = j->cli->settings.rays.open_sides,
-                                               .rise       = sign * rise,
-                                               .reach      = sign * reach };
-        const hc_result            result  = hc_reference_batch(
-                        NULL, pass == 0 ? b->first : b->last, &j->scene->field, &options, j->rays, j->count,
-                        j->cli->settings.threads, (hc_progress){ report_half, &half }, &j->cli->log);
+        const double               sign     = pass == 0 ? 1.0 : -1.0;
+        half_progress              half     = { j->cli, 0.5 * pass };
+        const hc_reference_options options  = { .surface    = j->cli->settings.rays.surface,
+                                                .open_sides = j->cli->settings.rays.open_sides,
+                                                .rise       = sign * rise,
+                                                .reach      = sign * reach };
+        const hc_progress          progress = { report_half, &half };
+        double                    *times    = pass == 0 ? b->first : b->last;
+        const hc_result            result =
+            hc_reference_batch(NULL, times, &j->scene->field, &options, j->rays, j->count,
+                               j->cli->settings.threads, progress, &j->cli->log);
         if (result != HC_OK) {
             return result;
         }
