@@ -526,7 +526,10 @@ static inline void march_all(job *j, ground kind)
     for (int k = 0; k < PACKS; k++) {
         pack          *p      = &j->packs[k];
         const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
-        march(j->fast, p, p->active & ~p->near & ~p->held & before, kind);
+        const unsigned ready  = p->active & ~p->near & ~p->held & before;
+        if (ready != 0) { /* of a single ray's packs, one */
+            march(j->fast, p, ready, kind);
+        }
     }
 }
 
