@@ -542,7 +542,7 @@ static unsigned busy_lanes(const job *j)
     return busy;
 }
 
-/* Idle lanes are computed too: their levels must be some level, and no lane may wait. */
+/* Idle lanes are computed too: what they shift by must be some number of bits. */
 static void start(job *j)
 {
     j->taken        = 0;
@@ -556,6 +556,7 @@ static void start(job *j)
         p->near   = 0;
         p->held   = 0;
         memset(p->level, 0, sizeof p->level);
+        memset(p->ray.quadrant, 0, sizeof p->ray.quadrant);
     }
 }
 
