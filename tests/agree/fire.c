@@ -184,7 +184,7 @@ static void make_target(target *made, const agree_volley *volley, hc_trace_metho
     const hc_reference_options surface = { .surface    = options.surface,
                                            .open_sides = options.open_sides,
                                            .placement  = options.placement };
-    *made                              = (target){ NULL };
+    *made                              = (target){ .tracer = NULL };
     made->scene                        = (agree_scene){ .field   = volley->field,
                                                         .kind    = volley->kind,
                                                         .method  = hc_trace_method_name(method),
