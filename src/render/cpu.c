@@ -12,7 +12,7 @@ static void draw_sample(hc_pixel *pixel, const hc_stage *stage, double x, double
     const hc_edge edge = stage->scene.relief.edge;
     double        origin[3], direction[3];
     hc_sample     sample;
-    hc_stage_ray(stage, origin, direction, x, y);
+    hc_eye_ray(&stage->eye, origin, direction, x, y);
     const hc_shape shape = hc_stage_shape(stage, origin, direction);
     const hc_sight sight = hc_sight_along(&shape, edge, stage->tracer, origin, direction);
     hc_shade(&sample, stage, &shape, &sight, origin, direction);
@@ -31,7 +31,7 @@ static void draw_row(void *context, int row, int worker)
         hc_pixel *pixel = &j->pixels[(size_t)row * (size_t)j->stage->width + (size_t)x];
         for (int i = 0; i < j->stage->scene.camera.samples; i++) {
             double place[2];
-            hc_stage_sample_place(j->stage, place, i);
+            hc_eye_sample_place(&j->stage->eye, place, i);
             draw_sample(pixel, j->stage, x + place[0], row + place[1], row);
         }
     }

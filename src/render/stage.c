@@ -1,6 +1,7 @@
 #include "stage.h"
 
 #include "angle.h"
+#include "check.h"
 #include "vec.h"
 
 #include "base/fail.h"
@@ -14,43 +15,6 @@ enum { SIDE_MAX = 65536, REPEAT_MAX = 256, SAMPLES_MAX = 256, GLOSS_MAX = 12, VI
 static const double FLATTEST = 1.0 / 1024.0;
 
 /* ---- checks -------------------------------------------------------------------------------- */
-
-static hc_result check_whole(const char *what, int value, int low, int high, hc_log *log)
-{
-    return value >= low && value <= high
-               ? HC_OK
-               : hc_fail(log, HC_ERROR_ARGUMENT, "%s is %d; it must be %d .. %d", what, value, low,
-                         high);
-}
-
-static hc_result check_number(const char *what, float value, float low, float high, hc_log *log)
-{
-    return value >= low && value <= high /* false for NaN */
-               ? HC_OK
-               : hc_fail(log, HC_ERROR_ARGUMENT, "%s is %g; it must be %g .. %g", what,
-                         (double)value, (double)low, (double)high);
-}
-
-static hc_result check_point(const char *what, const double point[3], hc_log *log)
-{
-    return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2])
-               ? HC_OK
-               : hc_fail(log, HC_ERROR_ARGUMENT, "%s is %g, %g, %g; it must be finite", what,
-                         point[0], point[1], point[2]);
-}
-
-static bool is_zero(const double point[3])
-{
-    return point[0] == 0.0 && point[1] == 0.0 && point[2] == 0.0;
-}
-
-#define CHECK(call)                                                                                \
-    do {                                                                                           \
-        const hc_result checked = (call);                                                          \
-        if (checked != HC_OK) {                                                                    \
-            return checked;                                                                        \
-        }                                                                                          \
-    } while (0)
 
 static hc_result check_relief(const hc_relief *relief, hc_log *log)
 {
@@ -181,51 +145,10 @@ static void resolve_camera(hc_camera *camera, const hc_shape *shape, double heig
 
 static void aim(hc_stage *stage)
 {
-    const hc_camera *camera = &stage->scene.camera;
-    double           up[3]  = { 0.0, 0.0, 1.0 };
-    memcpy(stage->eye, camera->eye, sizeof stage->eye);
-    hc_add_scaled(stage->forward, camera->at, -1.0, camera->eye);
-    if (!hc_unit(stage->forward)) {
-        memcpy(stage->forward, (const double[3]){ 0.0, 1.0, 0.0 }, sizeof stage->forward);
-    }
-    hc_cross(stage->right, stage->forward, up);
-    if (!hc_unit(stage->right)) {
-        stage->right[0] = 1.0; /* straight up or down: y is on top */
-    }
-    hc_cross(up, stage->right, stage->forward);
-    const double half = camera->orthographic > 0.0F
-                            ? 0.5 * (double)camera->orthographic
-                            : hc_tangent((double)camera->fov * HC_PI / 360.0);
-    for (int i = 0; i < 3; i++) {
-        stage->right[i] *= half;
-        stage->down[i] = -up[i] * half * stage->height / stage->width;
-    }
-    const double middle = -hc_dot(stage->eye, stage->forward);
+    stage->eye          = hc_eye_of(&stage->scene.camera, stage->width, stage->height);
+    const double middle = -hc_dot(stage->eye.place, stage->eye.forward);
     stage->near         = fmax(middle - stage->shape.bound, 0.0);
     stage->far          = fmax(middle + stage->shape.bound, stage->near + 1e-6);
-}
-
-void hc_stage_sample_place(const hc_stage *stage, double place[2], int index)
-{
-    double bits    = 0.5;
-    double place_y = 0.5; /* the digits of index in base two, mirrored at the point */
-    for (int rest = index; rest > 0; rest >>= 1, bits *= 0.5) {
-        place_y += (rest & 1) != 0 ? bits : 0.0;
-    }
-    place[0] = (index + 0.5) / stage->scene.camera.samples;
-    place[1] = place_y - floor(place_y);
-}
-
-void hc_stage_ray(const hc_stage *stage, double origin[3], double direction[3], double x, double y)
-{
-    const double across = 2.0 * x / stage->width - 1.0;
-    const double down   = 2.0 * y / stage->height - 1.0;
-    double      *moved  = stage->scene.camera.orthographic > 0.0F ? origin : direction;
-    memcpy(origin, stage->eye, 3 * sizeof *origin);
-    memcpy(direction, stage->forward, 3 * sizeof *direction);
-    hc_add_scaled(moved, moved, across, stage->right);
-    hc_add_scaled(moved, moved, down, stage->down);
-    (void)hc_unit(direction);
 }
 
 hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3])

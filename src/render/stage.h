@@ -2,6 +2,7 @@
 #ifndef HC_RENDER_STAGE_H
 #define HC_RENDER_STAGE_H
 
+#include "eye.h"
 #include "sight.h"
 
 typedef struct hc_stage {
@@ -9,11 +10,9 @@ typedef struct hc_stage {
     hc_render_options options;
     int               width, height;
     hc_shape          shape;
-    hc_tracer        *tracer, *exact;     /* exact: for views that compare, else NULL */
-    double            eye[3], forward[3]; /* forward: unit                                 */
-    double            right[3], down[3];  /* perspective: from the middle of the picture to its
-                                            edges, at distance 1; else in the world        */
-    double            sun[3];             /* unit, towards it        */
+    hc_tracer        *tracer, *exact; /* exact: for views that compare, else NULL */
+    hc_eye            eye;
+    double            sun[3];      /* unit, towards it        */
     double            shadow_slip; /* a shadow's cause lies at least so far before the lit point */
     double            near, far;   /* of the view of depths   */
 } hc_stage;
@@ -26,16 +25,10 @@ void      hc_stage_clear(hc_stage *stage);
 /* True if the view compares with the exact hit. */
 bool hc_view_compares(hc_view view);
 
-/* Where in a pixel sample `index` lies, 0 .. 1 along each axis. */
-void hc_stage_sample_place(const hc_stage *stage, double place[2], int index);
-
 /* A sun's rays start so far from what they light: outside every body. */
 #define HC_SUN_AWAY 8.0
 
 /* The shape as this ray of the eye sees it: flatter where the relief fades. */
 hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3]);
-
-/* The ray through the point (x, y) of the picture, in pixels. */
-void hc_stage_ray(const hc_stage *stage, double origin[3], double direction[3], double x, double y);
 
 #endif

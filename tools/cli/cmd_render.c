@@ -1,9 +1,8 @@
 /* heightcast render relief: a field as relief on a body, into a picture. */
 #include "commands.h"
+#include "drawing.h"
 #include "figures.h"
 #include "options.h"
-#include "output.h"
-#include "picture.h"
 #include "relief.h"
 #include "words.h"
 
@@ -23,25 +22,16 @@ enum {
 
 /* ---- choices that make no sense ---- */
 
-static int check_ending(hc_cli *cli, const char *option, const char *path, const char *endings)
-{
-    const hc_container *container = hc_container_of(path);
-    if (container == NULL || strstr(endings, container->endings[0]) == NULL) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: the ending must be one of %s", option, path,
-                           endings);
-    }
-    return hc_cli_check_output(cli, path);
-}
-
 static int check_outputs(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
     if (settings->out == NULL) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "needs --out FILE.png");
     }
-    int code = check_ending(cli, "out", settings->out, ".png, .exr");
+    int code = hc_cli_check_ending(cli, "out", settings->out, ".png, .exr");
     if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
-        code = check_ending(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
+        code =
+            hc_cli_check_ending(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
     }
     return code;
 }
@@ -114,40 +104,11 @@ static void draw_legend(hc_cli_canvas *c, hc_view view, double top)
 
 /* ---- the work ---- */
 
-static hc_result save_png(hc_cli *cli, const hc_picture *picture)
+static void draw_over(hc_cli_canvas *c, const hc_cli *cli, const hc_picture *picture)
 {
-    hc_cli_canvas c = { .width = picture->width, .height = picture->height };
-    c.rgb           = malloc((size_t)c.width * (size_t)c.height * 3);
-    if (c.rgb == NULL) {
-        (void)snprintf(cli->log.text, sizeof cli->log.text, "out of memory");
-        return HC_ERROR_MEMORY;
-    }
-    hc_picture_bytes(c.rgb, picture);
     if (has_legend(cli, picture)) {
-        draw_legend(&c, cli->settings.render.view, picture->figures.top);
+        draw_legend(c, cli->settings.render.view, picture->figures.top);
     }
-    const hc_result result = hc_save_picture(c.rgb, c.width, c.height, cli->settings.out,
-                                             &cli->settings.save, &cli->log);
-    free(c.rgb);
-    return result;
-}
-
-static hc_result save(hc_cli *cli, const hc_picture *picture)
-{
-    const hc_cli_settings *settings = &cli->settings;
-    const char            *depths   = settings->render.depth_out;
-    hc_result              result   = HC_OK;
-    if (strcmp(hc_container_of(settings->out)->name, "PNG") == 0) {
-        result = save_png(cli, picture);
-    } else {
-        result = hc_save_floats(picture->rgb, picture->width, picture->height, 3, settings->out,
-                                &settings->save, &cli->log);
-    }
-    if (result == HC_OK && depths != NULL) {
-        result = hc_save_floats(picture->depth, picture->width, picture->height, 1, depths,
-                                &settings->save, &cli->log);
-    }
-    return result;
 }
 
 static void show(hc_cli *cli, const hc_picture *picture)
@@ -183,16 +144,6 @@ static void show(hc_cli *cli, const hc_picture *picture)
     }
 }
 
-static bool take_memory(hc_picture *picture, const hc_cli_settings *settings)
-{
-    const size_t count = (size_t)picture->width * (size_t)picture->height;
-    picture->rgb       = malloc(count * 3 * sizeof *picture->rgb);
-    if (settings->render.depth_out != NULL) {
-        picture->depth = malloc(count * sizeof *picture->depth);
-    }
-    return picture->rgb != NULL && (picture->depth != NULL || settings->render.depth_out == NULL);
-}
-
 /* Where there is no OpenGL the CPU draws, as long as it may. */
 static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
 {
@@ -215,13 +166,15 @@ static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *pict
 
 static int draw(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
 {
-    if (!take_memory(picture, &cli->settings)) {
+    if (!hc_cli_take_picture(picture, cli->settings.render.depth_out != NULL)) {
         return hc_cli_fail_memory(cli);
     }
     hc_cli_phase(cli, "cast");
     hc_result result = cast(cli, relief, picture);
     hc_cli_phase(cli, "save");
-    result = result == HC_OK ? save(cli, picture) : result;
+    result = result == HC_OK ? hc_cli_save_drawing(cli, picture, cli->settings.out,
+                                                   cli->settings.render.depth_out, draw_over)
+                             : result;
     hc_cli_phase(cli, NULL);
     if (result == HC_OK) {
         show(cli, picture);

@@ -1,5 +1,6 @@
 #include "relief.h"
 
+#include "albedo.h"
 #include "options.h"
 
 #include <math.h>
@@ -63,46 +64,6 @@ static float *paint(const hc_field *field)
     return rgb;
 }
 
-static float linear_of(float code)
-{
-    return code <= 0.04045F ? code / 12.92F : powf((code + 0.055F) / 1.055F, 2.4F);
-}
-
-/* One channel after the other, as heights are read. */
-static int load_albedo(hc_cli_relief *relief, hc_cli *cli)
-{
-    hc_material *m   = &relief->scene.material;
-    hc_log       log = { .text = "" }; /* without its warning of sRGB, which is right here */
-    for (int channel = 0; channel < 3; channel++) {
-        const hc_load_options load   = { .normalise = { .channel = HC_CHANNEL_AUTO,
-                                                        .range   = HC_RANGE_TYPE },
-                                         .limits    = cli->settings.load.limits };
-        hc_load_options       chosen = load;
-        hc_field              plane;
-        chosen.normalise.channel = (hc_channel)(HC_CHANNEL_R + channel);
-        hc_result result = hc_load_field(&plane, cli->settings.render.albedo, &chosen, &log);
-        if (result != HC_OK) { /* grey images have but one */
-            result = hc_load_field(&plane, cli->settings.render.albedo, &load, &log);
-        }
-        if (result != HC_OK) {
-            cli->log = (hc_log){ .warn = cli->log.warn, .user = cli->log.user };
-            memcpy(cli->log.text, log.text, sizeof log.text);
-            return hc_cli_fail_result(cli, result);
-        }
-        const size_t count = (size_t)plane.width * (size_t)plane.height;
-        if (relief->albedo == NULL) {
-            relief->albedo = malloc(count * 3 * sizeof *relief->albedo);
-        }
-        m->albedo_width  = plane.width;
-        m->albedo_height = plane.height;
-        for (size_t i = 0; relief->albedo != NULL && i < count; i++) {
-            relief->albedo[3 * i + (size_t)channel] = linear_of(plane.heights[i]);
-        }
-        hc_free_field(&plane);
-    }
-    return HC_CLI_DONE;
-}
-
 static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
 {
     hc_material *m    = &relief->scene.material;
@@ -114,7 +75,7 @@ static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
         return HC_CLI_DONE;
     }
     if (cli->settings.render.albedo != NULL) {
-        code = load_albedo(relief, cli);
+        code = hc_cli_load_albedo(cli, &relief->albedo, &m->albedo_width, &m->albedo_height);
     } else {
         relief->albedo   = paint(&relief->ground.field);
         m->albedo_width  = relief->ground.field.width;

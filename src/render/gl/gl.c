@@ -158,7 +158,7 @@ static void add_pixel(hc_pixel *pixel, const hc_stage *stage, const float *plane
                                .entered  = counts[2] > 0.5F,
                                .unconverged = counts[3] > 0.5F };
     double          origin[3], direction[3];
-    hc_stage_ray(stage, origin, direction, x, y);
+    hc_eye_ray(&stage->eye, origin, direction, x, y);
     hc_pixel_add(pixel, stage, &sample, direction, row);
 }
 
@@ -184,7 +184,7 @@ static double take_band(hc_pixel *pixels, const canvas *c, const hc_stage *stage
 {
     const size_t texels = (size_t)stage->width * (size_t)rows * CHANNELS;
     double       place[2];
-    hc_stage_sample_place(stage, place, sample);
+    hc_eye_sample_place(&stage->eye, place, sample);
     if (c->exact != 0) {
         draw_band(c->exact, first_row, stage->width, rows, place);
         read_plane(c->back + PLANES * texels, 0, stage->width, rows);

@@ -197,10 +197,10 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
     set_field(program, stage, method);
     set_shape(program, stage);
     set_light(program, stage);
-    set_vector(program, "u_eye", stage->eye);
-    set_vector(program, "u_forward", stage->forward);
-    set_vector(program, "u_right", stage->right);
-    set_vector(program, "u_down", stage->down);
+    set_vector(program, "u_eye", stage->eye.place);
+    set_vector(program, "u_forward", stage->eye.forward);
+    set_vector(program, "u_right", stage->eye.right);
+    set_vector(program, "u_down", stage->eye.down);
     set_int(program, "u_orthographic", stage->scene.camera.orthographic > 0.0F);
     set_pair(program, "u_picture", stage->width, stage->height);
     set_pair(program, "u_depth_range", fmax(stage->near, 1e-3), stage->far);
