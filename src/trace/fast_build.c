@@ -125,18 +125,25 @@ static void diagonal_top(float *highest, const float *tops, ptrdiff_t dx, ptrdif
     }
 }
 
+/* One more diagonal, after so many: is none so far higher than the block? */
+static void count_open(float *ways, const float *highest, const float *tops, int after)
+{
+    const float before = (float)after;
+    for (int x = 0; x < TILE; x++) {
+        ways[x] += ways[x] == before && highest[x] <= tops[x] ? 1.0F : 0.0F;
+    }
+}
+
 /* Steepest slope from each of TILE blocks to diagonals first .. DIAGONALS; a diagonal of blocks as
- * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways` counts the
- * diagonals up to which none is higher than the block. */
+ * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways`, unless NULL,
+ * counts the diagonals from the first up to which none is higher than the block. */
 static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t dx, ptrdiff_t dy,
                         int side, int first, float least)
 {
     float highest[TILE];
-    float open[TILE];
     memset(slopes, 0, TILE * sizeof *slopes);
-    for (int x = 0; x < TILE; x++) {
-        open[x] = 1.0F;
-        ways[x] = 0.0F;
+    if (ways != NULL) {
+        memset(ways, 0, TILE * sizeof *ways);
     }
     for (int m = first; m <= DIAGONALS; m++) {
         const float distance = larger((float)((m - 2) * side + 2), least);
@@ -144,8 +151,9 @@ static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t
         diagonal_top(highest, tops, dx, dy, m);
         for (int x = 0; x < TILE; x++) {
             slopes[x] = larger(slopes[x], (highest[x] - tops[x]) * weight);
-            open[x]   = highest[x] > tops[x] ? 0.0F : open[x];
-            ways[x] += open[x];
+        }
+        if (ways != NULL) {
+            count_open(ways, highest, tops, m - first);
         }
     }
 }
@@ -181,7 +189,6 @@ static void far_row(void *context, int y, int worker)
     const level   *l     = &b->levels[b->current];
     const float    least = 0.75F * (float)l->side + 2.0F;
     float          slopes[TILE];
-    float          unused[TILE];
     (void)worker;
     for (int x = 0; x < l->width; x += TILE) {
         const float *tops  = l->tops + (size_t)y * l->pitch + x;
@@ -190,7 +197,7 @@ static void far_row(void *context, int y, int worker)
         for (int q = 0; q < 4; q++) {
             const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
             const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            near_slopes(slopes, unused, tops, dx, dy, l->side, 2, least);
+            near_slopes(slopes, NULL, tops, dx, dy, l->side, 2, least);
             add_far(slopes, b, b->current, x, y, q, count);
             for (int i = 0; i < count; i++) {
                 out[4 * i + q] = slopes[i];
@@ -292,11 +299,12 @@ static void block_row(void *context, int y, int worker)
         const float *tops  = l->tops + (size_t)y * l->pitch + x;
         const int    count = tile_count(l, x);
         for (int q = 0; q < 4 && !b->fast->steps; q++) {
-            const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
-            const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            near_slopes(slopes[q], ways[q], tops, dx, dy, l->side, 1, 1.0F);
+            const ptrdiff_t dx   = (q & 1) != 0 ? -1 : 1;
+            const ptrdiff_t dy   = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
+            float *const    open = k == 0 || b->sparse ? ways[q] : NULL;
+            near_slopes(slopes[q], open, tops, dx, dy, l->side, 1, 1.0F);
             add_far(slopes[q], b, k, x, y, q, count);
-            stops += stop_free(b, slopes[q], ways[q], count);
+            stops += k == 0 ? stop_free(b, slopes[q], ways[q], count) : 0;
         }
         for (int i = 0; i < count; i++) {
             float       slope[4];

@@ -5,6 +5,7 @@
 
 #include "fast.h"
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -33,32 +34,35 @@ typedef struct hc_fast_block {
 /* One axis of the cell grid: cell i lies between coordinates i and i + 1. */
 typedef struct hc_fast_axis {
     int    cells;
-    int    first;        /* sample at coordinate 0                                  */
-    int    samples;      /* of the field                                            */
-    bool   wrapped;      /* coordinates repeat after `cells`                        */
-    double low, high;    /* the field's ends                                     */
-    double scale, shift; /* coordinate = scale * (ray's coordinate) + shift      */
-    double step, zero;   /* (u or v) = step * (coordinate - zero)                */
+    int    first;        /* sample at coordinate 0                 */
+    int    samples;      /* of the field                           */
+    bool   wrapped;      /* coordinates repeat after `cells`       */
+    double low, high;    /* the field's ends                       */
+    double scale, shift; /* coordinate = scale * (ray's) + shift   */
+    double step, zero;   /* (u or v) = step * (coordinate - zero)  */
 } hc_fast_axis;
 
 struct hc_fast {
     const hc_tracer *tracer; /* that it is part of */
 
-    hc_fast_axis   x, y;
-    double         scale_z, shift_z; /* normalised height of a ray's height */
-    double         highest;
-    bool           steps, open_sides;
-    bool           sparse; /* few things on a flat ground */
-    hc_isa         isa;
-    int            levels, first_level;   /* where marching begins */
-    int32_t        stride[16], start[16]; /* of the levels' blocks; 16 for one vector register  */
-    float          blur;  /* [cells] by which marching may misplace a ray                    */
-    float          slack; /* [height] by which the surface may rise on thrice that way       */
-    int            stride_heights;
-    float         *heights; /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner            */
-    hc_fast_block *blocks;  /* all levels, the finest first; each has one more at the ends of its
-                               rows, and one more row: rays at an edge may be put beyond it.
-                               hc_fast_block_at                                                 */
+    hc_fast_axis x, y;
+    double       scale_z, shift_z; /* normalised height of a ray's height */
+    double       highest;
+    bool         steps, open_sides;
+    bool         sparse; /* few things on a flat ground */
+    hc_isa       isa;
+    float        blur;  /* [cells] by which marching may misplace a ray              */
+    float        slack; /* [height] by which the surface may rise on thrice that way */
+
+    /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner */
+    int    stride_heights;
+    float *heights;
+
+    /* All levels, the finest first: hc_fast_block_at. Each has one more block at the ends of its
+     * rows, and one more row: rays at an edge may be put beyond it. */
+    int            levels, first_level;   /* where marching begins            */
+    int32_t        stride[16], start[16]; /* of levels; 16 for one vector register */
+    hc_fast_block *blocks;
 };
 
 /* Where the height of a corner stands; where a block does, from the start of its level. */
@@ -96,6 +100,12 @@ typedef struct hc_fast_ray {
     bool          begun;    /* at `from` it is above the surface, and at no side            */
     hc_fast_found at_once;  /* where it hits, if it is not to be marched               */
 } hc_fast_ray;
+
+/* Cells that it goes sideways per t. */
+static inline double hc_fast_run(const hc_fast_ray *r)
+{
+    return fabs(r->direction[0]) + fabs(r->direction[1]);
+}
 
 /* Fill heights and blocks. */
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log);

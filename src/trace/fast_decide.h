@@ -7,8 +7,6 @@
 #include "fast_march.h"
 #include "fast_rays.h"
 
-#include <float.h>
-
 /* Cells in question. Twice the lanes: lanes are added sixteen at a time, and decided likewise. */
 typedef struct trials {
     int32_t which[2 * HC_LANES], lane[2 * HC_LANES]; /* lane -1: it has been given to another ray */
@@ -18,6 +16,8 @@ typedef struct trials {
     double  from[2 * HC_LANES + HC_LANES];
     int     count;
 } trials;
+
+enum { TRIAL_WORDS = offsetof(trials, from) / (2 * HC_LANES * sizeof(int32_t)) };
 
 /* What is found out about them. Neither hit nor clear: it could not be told. */
 typedef struct verdict {
@@ -85,12 +85,11 @@ static inline void test_cells(const hc_fast *fast, const batch *b, const int32_t
                                        b->origin[1][i] + enter * dy - (double)cell_y[i],
                                        b->origin[2][i] + enter * dz, dx, dy, dz);
         const double    t     = enter + first_root(q);
-        const double    run   = fabs(dx) + fabs(dy);
-        const int32_t   in    = (begin[i] >= enter * run) & (q.c > 0.0) & (leave >= enter);
+        const int32_t   in    = (begin[i] >= enter * b->run[i]) & (q.c > 0.0) & (leave >= enter);
         out->t[i]             = t;
         out->leave[i]         = leave;
         out->other[i]         = greater(x.leave[i], y.leave[i]);
-        out->hit[i]           = in & (t <= leave) & (t <= (double)FLT_MAX);
+        out->hit[i]           = in & (t <= leave);
         out->open[i]          = in & (t > leave);
         out->across[i]        = y.leave[i] < x.leave[i];
     }
@@ -134,15 +133,14 @@ static inline void test_next(const hc_fast *fast, const batch *b, const trials *
     double         begin[HC_LANES];
     const unsigned on = next_cells(fast, b, first, v);
     for (int i = 0; i < HC_LANES; i++) {
-        begin[i] = first->leave[i] * (fabs(b->direction[0][i]) + fabs(b->direction[1][i]));
+        begin[i] = first->leave[i] * b->run[i];
     }
     test_cells(fast, b, v->cell_x, v->cell_y, begin, &next);
     for (int i = 0; i < HC_LANES; i++) {
-        const double  run  = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
-        const double  way  = (next.leave[i] - c->from[i]) * run;
+        const double  way  = (next.leave[i] - c->from[i]) * b->run[i];
         const float   s    = (float)(way * (1.0 + 0x1p-22)); /* not before */
         const int32_t also = (int32_t)(on >> i & 1);
-        const int32_t past = (next.other[i] - next.leave[i]) * run > 0x1p-21 * way;
+        const int32_t past = (next.other[i] - next.leave[i]) * b->run[i] > 0x1p-21 * way;
         v->s[i]            = s;
         v->clear[i]        = also & past & next.open[i] & (s > c->s[i] + 0.25F * fast->blur);
         v->t[i]            = (also & next.hit[i]) != 0 ? next.t[i] : v->t[i];
@@ -156,8 +154,7 @@ static inline void decide_cells(const hc_fast *fast, const batch *b, const trial
     double  begin[HC_LANES];
     int32_t any_open = 0;
     for (int i = 0; i < HC_LANES; i++) {
-        begin[i] =
-            c->from[i] * (fabs(b->direction[0][i]) + fabs(b->direction[1][i])) + (double)c->s[i];
+        begin[i] = c->from[i] * b->run[i] + (double)c->s[i];
     }
     test_cells(fast, b, c->cell_x, c->cell_y, begin, &first);
     memcpy(v->t, first.t, sizeof v->t);

@@ -100,38 +100,58 @@ static double leave_period(const hc_fast_ray *r, int axis, const hc_fast_axis *a
     return leave;
 }
 
+/* A ray along one axis as a lane has it. */
+typedef struct lane_axis {
+    float   at, rate, over;
+    int32_t ahead;
+} lane_axis;
+
+static inline lane_axis turn_axis(double origin, double direction, double t, double start,
+                                  double scale)
+{
+    const float rate = (float)(direction * scale);
+    const bool  up   = !(direction < 0.0);
+    const float most = up ? 0x1p60F : -0x1p60F;
+    return (lane_axis){ .at    = (float)(origin + t * direction - start),
+                        .rate  = rate,
+                        .over  = fabsf(rate) > 0x1p-60F ? 1.0F / rate : most,
+                        .ahead = up };
+}
+
+static inline int32_t shift_to_quadrant(int32_t ahead_x, int32_t ahead_y)
+{
+    return 8 * (1 - ahead_x) + 16 * (1 - ahead_y);
+}
+
 /* A segment from t to `next`, in cells from `start`, at place k of the queue. */
 static void enqueue_segment(job *j, int k, const hc_fast_ray *r, const double start[2], double t,
                             double next)
 {
-    runners       *q        = &j->queue;
-    const double   run      = fabs(r->direction[0]) + fabs(r->direction[1]);
-    const double   scale    = 1.0 / run;
-    float *const   at[2]    = { q->x, q->y };
-    float *const   rate[2]  = { q->dx, q->dy };
-    float *const   over[2]  = { q->rx, q->ry };
-    int32_t *const ahead[2] = { q->ahead_x, q->ahead_y };
-    q->quadrant[k]          = 0;
-    for (int axis = 0; axis < 2; axis++) {
-        const float d  = (float)(r->direction[axis] * scale);
-        const bool  up = !(r->direction[axis] < 0.0);
-        at[axis][k]    = (float)(r->origin[axis] + t * r->direction[axis] - start[axis]);
-        rate[axis][k]  = d;
-        over[axis][k]  = fabsf(d) > 0x1p-60F ? 1.0F / d : up ? 0x1p60F : -0x1p60F;
-        ahead[axis][k] = up;
-        q->quadrant[k] |= up ? 0 : 8 << axis;
-    }
-    q->z[k]          = (float)(r->origin[2] + t * r->direction[2]);
-    q->dz[k]         = (float)(r->direction[2] * scale);
-    q->end[k]        = (float)((next - t) * run) + 2.0F * j->fast->blur;
-    j->queue_from[k] = t;
-    j->queue_next[k] = next;
+    runners        *q     = &j->queue;
+    const double    run   = hc_fast_run(r);
+    const double    scale = 1.0 / run;
+    const lane_axis x     = turn_axis(r->origin[0], r->direction[0], t, start[0], scale);
+    const lane_axis y     = turn_axis(r->origin[1], r->direction[1], t, start[1], scale);
+    q->x[k]               = x.at;
+    q->y[k]               = y.at;
+    q->dx[k]              = x.rate;
+    q->dy[k]              = y.rate;
+    q->rx[k]              = x.over;
+    q->ry[k]              = y.over;
+    q->ahead_x[k]         = x.ahead;
+    q->ahead_y[k]         = y.ahead;
+    q->quadrant[k]        = shift_to_quadrant(x.ahead, y.ahead);
+    q->z[k]               = (float)(r->origin[2] + t * r->direction[2]);
+    q->dz[k]              = (float)(r->direction[2] * scale);
+    q->end[k]             = (float)((next - t) * run) + 2.0F * j->fast->blur;
+    j->queue_from[k]      = t;
+    j->queue_next[k]      = next;
 }
 
 /* Segments from t on until one is to be marched, which is enqueued. */
 static void go_on(job *j, const hc_fast_ray *r, double t, const leftover *from)
 {
-    const double run = fabs(r->direction[0]) + fabs(r->direction[1]);
+    const double run = hc_fast_run(r);
     do {
         double        start[2];
         hc_fast_found found;
@@ -199,26 +219,23 @@ static unsigned turn_batch(const hc_fast *fast, const batch *b, runners *q)
     double         scale[HC_LANES];
     float          good[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
-        const double run = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
-        const double way = (b->to[i] - b->from[i]) * run;
-        scale[i]         = 1.0 / run;
+        const double way = (b->to[i] - b->from[i]) * b->run[i];
+        scale[i]         = 1.0 / b->run[i];
         q->end[i]        = (float)way + 2.0F * fast->blur;
         good[i]          = ((b->meets[i] != 0) & (way >= MARCH_FROM)) ? 1.0F : 0.0F;
     }
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < HC_LANES; i++) {
-            const double direction = b->direction[k][i];
-            const float  d         = (float)(direction * scale[i]);
-            const bool   up        = !(direction < 0.0);
-            const float  most      = up ? 0x1p60F : -0x1p60F;
-            at[k][i]               = (float)(b->origin[k][i] + b->from[i] * direction);
-            rate[k][i]             = d;
-            over[k][i]             = fabsf(d) > 0x1p-60F ? 1.0F / d : most;
-            ahead[k][i]            = up;
+            const lane_axis a =
+                turn_axis(b->origin[k][i], b->direction[k][i], b->from[i], 0.0, scale[i]);
+            at[k][i]    = a.at;
+            rate[k][i]  = a.rate;
+            over[k][i]  = a.over;
+            ahead[k][i] = a.ahead;
         }
     }
     for (int i = 0; i < HC_LANES; i++) {
-        q->quadrant[i]  = 8 * (1 - q->ahead_x[i]) + 16 * (1 - q->ahead_y[i]);
+        q->quadrant[i]  = shift_to_quadrant(q->ahead_x[i], q->ahead_y[i]);
         q->z[i]         = (float)(b->origin[2][i] + b->from[i] * b->direction[2][i]);
         q->dz[i]        = (float)(b->direction[2][i] * scale[i]);
         q->steps[i]     = 0;
@@ -321,7 +338,7 @@ static void end_segments(job *j, pack *p, unsigned ended)
 static bool walk_trial(const job *j, const hc_fast_ray *r, int i)
 {
     const trials *c   = &j->trials;
-    const double  run = fabs(r->direction[0]) + fabs(r->direction[1]);
+    const double  run = hc_fast_run(r);
     /* On steps a lane that cut a corner may have left out the cell that it cut. */
     const double  back = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
     const double  from = c->from[i] + ((double)c->s[i] - back) / run;
@@ -381,8 +398,8 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
         p->s[lane] = s;
         p->ray.crossings[lane]++;
     } else if (!hit) {
-        const double run = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
-        leave_over(j, c->which[i], c->from[i] + (double)s / run, c->steps[i], c->crossings[i]);
+        leave_over(j, c->which[i], c->from[i] + (double)s / b->run[i], c->steps[i],
+                   c->crossings[i]);
     }
 }
 
@@ -391,14 +408,10 @@ static void drop_trials(trials *c, int count)
 {
     c->count -= count;
     if (c->count > 0) {
-        memcpy(c->which, c->which + count, HC_LANES * sizeof *c->which);
-        memcpy(c->lane, c->lane + count, HC_LANES * sizeof *c->lane);
-        memcpy(c->cell_x, c->cell_x + count, HC_LANES * sizeof *c->cell_x);
-        memcpy(c->cell_y, c->cell_y + count, HC_LANES * sizeof *c->cell_y);
-        memcpy(c->steps, c->steps + count, HC_LANES * sizeof *c->steps);
-        memcpy(c->crossings, c->crossings + count, HC_LANES * sizeof *c->crossings);
-        memcpy(c->s, c->s + count, HC_LANES * sizeof *c->s);
-        memcpy(c->span, c->span + count, HC_LANES * sizeof *c->span);
+        for (int k = 0; k < TRIAL_WORDS; k++) {
+            char *row = (char *)c + (size_t)k * sizeof c->which;
+            memcpy(row, row + (size_t)count * sizeof *c->which, sizeof c->which / 2);
+        }
         memcpy(c->from, c->from + count, HC_LANES * sizeof *c->from);
     }
 }

@@ -33,9 +33,9 @@ typedef struct pack {
     float    s[HC_LANES];
     float    until[HC_LANES]; /* s at which a near lane leaves its block */
     int32_t  level[HC_LANES];
-    unsigned active, near,
-        held; /* lanes with a ray; of them, waiting on a cell to be looked at, and
-                                    to be decided                                                 */
+    unsigned active; /* lanes with a ray                        */
+    unsigned near;   /* of them: waiting on a cell to be looked at */
+    unsigned held;   /* of them: waiting to be decided          */
 } pack;
 
 typedef struct place {

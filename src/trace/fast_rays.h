@@ -14,6 +14,7 @@ static const double FAR_PERIODS = 4.0 * HC_PERIODS_MAX;
 
 typedef struct batch {
     double  origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
+    double  run[HC_LANES]; /* cells gone sideways per t */
     double  from[HC_LANES], to[HC_LANES], tmin[HC_LANES];
     int32_t meets[HC_LANES];
 } batch;
@@ -46,10 +47,10 @@ static inline void place_rays(batch *b, const hc_fast *fast, const hc_ray *rays,
         place_axis(b->origin[k], columns[k], scale[k], shift[k]);
         place_axis(b->direction[k], columns[4 + k], scale[k], 0.0);
     }
-    for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < HC_LANES; i++) {
-            b->inverse[k][i] = 1.0 / b->direction[k][i];
-        }
+    for (int i = 0; i < HC_LANES; i++) {
+        b->inverse[0][i] = 1.0 / b->direction[0][i];
+        b->inverse[1][i] = 1.0 / b->direction[1][i];
+        b->run[i]        = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
     }
 }
 
