@@ -88,15 +88,9 @@ static void draw_map(const hc_stage *stage, unsigned program)
 
 static unsigned build(const char *head)
 {
-    const hc_shader_text vertex[]   = { { "relief.vert", hc_shader_text_named("relief.vert") },
-                                        { NULL, NULL } };
-    const hc_shader_text fragment[] = { { "heightcast.glsl",
-                                          hc_shader_text_named("heightcast.glsl") },
-                                        { "relief.frag", hc_shader_text_named("relief.frag") },
-                                        { NULL, NULL } };
-    unsigned             program;
-    hc_log               log = { .text = "" };
-    if (hc_gl_build(&program, head, vertex, fragment, &log) != HC_OK) {
+    unsigned program;
+    hc_log   log = { .text = "" };
+    if (hc_gl_build_relief(&program, head, &log) != HC_OK) {
         fail_msg("%s", log.text);
     }
     return program;

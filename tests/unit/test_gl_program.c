@@ -1,7 +1,10 @@
-/* Complaints about shaders name file and line; skipped where there is no OpenGL. */
+/* Complaints of OpenGL: about shaders with file and line, about memory, about contexts that are
+ * lost. What needs a context is skipped where there is none. */
 #ifdef HC_HAVE_GL
 #include "render/gl/context.h"
 #include "render/gl/program.h"
+
+#include <epoxy/gl.h>
 #endif
 
 #include <heightcast/render.h>
@@ -32,6 +35,65 @@ static void expect_complaint(const hc_shader_text *fragment, const char *says)
     assert_null(strchr(log.text, '\n'));
 }
 
+static void expect_verdict(GLenum error, GLenum reset, hc_result wanted, const char *says)
+{
+    hc_log log = { .text = "" };
+    assert_int_equal(hc_gl_verdict(error, reset, "field", &log), wanted);
+    if (strstr(log.text, says) == NULL) {
+        fail_msg("'%s' does not say '%s'", log.text, says);
+    }
+    assert_null(strchr(log.text, '\n'));
+}
+
+static void verdicts(void **state)
+{
+    (void)state;
+    hc_log log = { .text = "" };
+    assert_int_equal(hc_gl_verdict(GL_NO_ERROR, GL_NO_ERROR, "field", &log), HC_OK);
+    assert_string_equal(log.text, "");
+    expect_verdict(GL_OUT_OF_MEMORY, GL_NO_ERROR, HC_ERROR_MEMORY, "field: out of memory");
+    expect_verdict(GL_CONTEXT_LOST, GL_NO_ERROR, HC_ERROR_IO, "field: the driver has lost its");
+    expect_verdict(GL_NO_ERROR, GL_UNKNOWN_CONTEXT_RESET, HC_ERROR_IO, "lost its context; try");
+    expect_verdict(GL_CONTEXT_LOST, GL_GUILTY_CONTEXT_RESET, HC_ERROR_IO, "for what was drawn");
+    /* A lost context runs out of everything: the loss is the cause. */
+    expect_verdict(GL_OUT_OF_MEMORY, GL_INNOCENT_CONTEXT_RESET, HC_ERROR_IO, "what others drew");
+    expect_verdict(GL_INVALID_ENUM, GL_NO_ERROR, HC_ERROR_IO, "error 0x0500");
+}
+
+/* False: there is no OpenGL here, and the test is skipped. */
+static void open_or_skip(hc_gl_context *context)
+{
+    hc_log          log    = { .text = "" };
+    const hc_result result = hc_gl_open(context, &log);
+    if (result == HC_ERROR_UNSUPPORTED) {
+        hc_gl_close(context);
+        print_message("%s\n", log.text);
+        skip();
+    }
+    assert_int_equal(result, HC_OK);
+}
+
+/* A texture that no card holds: 4 TiB. */
+static void a_texture_out_of_memory(void **state)
+{
+    hc_gl_context context;
+    GLint         side = 0, layers = 0;
+    GLuint        texture = 0;
+    hc_log        log     = { .text = "" };
+    (void)state;
+    open_or_skip(&context);
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &side);
+    glGetIntegerv(GL_MAX_ARRAY_TEXTURE_LAYERS, &layers);
+    glGenTextures(1, &texture);
+    glBindTexture(GL_TEXTURE_2D_ARRAY, texture);
+    glTexStorage3D(GL_TEXTURE_2D_ARRAY, 1, GL_RGBA32F, side, side, layers);
+    assert_int_equal(hc_gl_check("field", &log), HC_ERROR_MEMORY);
+    assert_non_null(strstr(log.text, "field: out of memory for graphics"));
+    assert_int_equal(hc_gl_check("the next one", &log), HC_OK);
+    glDeleteTextures(1, &texture);
+    hc_gl_close(&context);
+}
+
 static void complaints(void **state)
 {
     static const hc_shader_text first[]  = { { "first.glsl",
@@ -45,15 +107,9 @@ static void complaints(void **state)
     static const hc_shader_text none[]   = { { "none.frag", "float f(void) { return 1.0; }\n" },
                                              { NULL, NULL } };
     hc_gl_context               context;
-    hc_log                      log    = { .text = "" };
-    hc_result                   result = hc_gl_open(&context, &log);
+    hc_log                      log = { .text = "" };
     (void)state;
-    if (result == HC_ERROR_UNSUPPORTED) {
-        hc_gl_close(&context);
-        print_message("%s\n", log.text);
-        skip();
-    }
-    assert_int_equal(result, HC_OK);
+    open_or_skip(&context);
     expect_complaint(first, "shader first.glsl, line 3 ");
     expect_complaint(second, "shader second.frag, line 4 ");
     expect_complaint(none, "link");
@@ -80,6 +136,12 @@ static void complaints(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test(complaints) };
+    const struct CMUnitTest tests[] = {
+#ifdef HC_HAVE_GL
+        cmocka_unit_test(verdicts),
+        cmocka_unit_test(a_texture_out_of_memory),
+#endif
+        cmocka_unit_test(complaints),
+    };
     return cmocka_run_group_tests_name("gl_program", tests, NULL, NULL);
 }

@@ -40,24 +40,36 @@ static hc_result open_display(hc_gl_context *context, hc_log *log)
     return HC_OK;
 }
 
+/* A context that says so when the card was reset under it, where the driver can; else a plain one. */
+static EGLContext make_context(EGLDisplay display)
+{
+    static const EGLint watchful[] = { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                       EGL_LOSE_CONTEXT_ON_RESET,
+                                       EGL_CONTEXT_MAJOR_VERSION,
+                                       4,
+                                       EGL_CONTEXT_MINOR_VERSION,
+                                       3,
+                                       EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                       EGL_NONE };
+    const EGLContext    context =
+        eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, watchful);
+    return context != EGL_NO_CONTEXT
+               ? context
+               : eglCreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, watchful + 2);
+}
+
 hc_result hc_gl_open(hc_gl_context *context, hc_log *log)
 {
-    static const EGLint core[] = { EGL_CONTEXT_MAJOR_VERSION,
-                                   4,
-                                   EGL_CONTEXT_MINOR_VERSION,
-                                   3,
-                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                   EGL_NONE };
-    *context                   = (hc_gl_context){ .display = NULL };
-    const hc_result result     = open_display(context, log);
+    *context               = (hc_gl_context){ .display = NULL };
+    const hc_result result = open_display(context, log);
     if (result != HC_OK) {
         return result;
     }
     if (!eglBindAPI(EGL_OPENGL_API)) {
         return refuse("EGL has no OpenGL", log);
     }
-    context->context = eglCreateContext(context->display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, core);
+    context->context = make_context(context->display);
     if (context->context == EGL_NO_CONTEXT) {
         context->context = NULL;
         return refuse("the driver has no OpenGL 4.3 core", log);
@@ -78,16 +90,30 @@ void hc_gl_close(hc_gl_context *context)
     /* The display is shared by the whole process, so it is not terminated. */
 }
 
-hc_result hc_gl_check(const char *what, hc_log *log)
+hc_result hc_gl_verdict(unsigned error, unsigned reset, const char *what, hc_log *log)
 {
-    const GLenum error = glGetError();
+    if (reset != GL_NO_ERROR || error == GL_CONTEXT_LOST) {
+        return hc_fail(log, HC_ERROR_IO,
+                       "%s: the driver has lost its context%s; try again, or use cpu", what,
+                       reset == GL_GUILTY_CONTEXT_RESET     ? ", for what was drawn"
+                       : reset == GL_INNOCENT_CONTEXT_RESET ? ", for what others drew"
+                                                            : "");
+    }
     switch (error) {
     case GL_NO_ERROR: return HC_OK;
     case GL_OUT_OF_MEMORY:
         return hc_fail(log, HC_ERROR_MEMORY, "%s: out of memory for graphics; use cpu", what);
-    case GL_CONTEXT_LOST:
-        return hc_fail(log, HC_ERROR_IO,
-                       "%s: the driver has lost its context; try again, or use cpu", what);
     default: return hc_fail(log, HC_ERROR_IO, "%s: OpenGL error 0x%04x; use cpu", what, error);
     }
+}
+
+static bool knows_resets(void)
+{
+    return epoxy_gl_version() >= 45 || epoxy_has_gl_extension("GL_KHR_robustness");
+}
+
+hc_result hc_gl_check(const char *what, hc_log *log)
+{
+    const GLenum reset = knows_resets() ? glGetGraphicsResetStatus() : GL_NO_ERROR;
+    return hc_gl_verdict(glGetError(), reset, what, log);
 }

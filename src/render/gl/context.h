@@ -17,4 +17,7 @@ void      hc_gl_close(hc_gl_context *context);
  * context is lost. `what` is what was done. */
 hc_result hc_gl_check(const char *what, hc_log *log);
 
+/* What is made of the answers of glGetError and glGetGraphicsResetStatus. */
+hc_result hc_gl_verdict(unsigned error, unsigned reset, const char *what, hc_log *log);
+
 #endif

@@ -30,19 +30,13 @@ typedef struct canvas {
 static hc_result build(unsigned *program, const hc_stage *stage, hc_trace_method method,
                        hc_log *log)
 {
-    char                 head[128];
-    const bool           one        = stage->scene.relief.trace.cones == HC_CONES_L1;
-    const hc_shader_text vertex[]   = { { "relief.vert", hc_shader_text_named("relief.vert") },
-                                        { NULL, NULL } };
-    const hc_shader_text fragment[] = { { "heightcast.glsl",
-                                          hc_shader_text_named("heightcast.glsl") },
-                                        { "relief.frag", hc_shader_text_named("relief.frag") },
-                                        { NULL, NULL } };
+    char       head[128];
+    const bool one = stage->scene.relief.trace.cones == HC_CONES_L1;
     (void)snprintf(
         head, sizeof head,
         "#version 430 core\n#define HC_METHOD %d\n#define HC_GATHER\n#define HC_CONE_CHANNELS %d\n",
         hc_gl_method(method), one ? 1 : 4);
-    const hc_result result = hc_gl_build(program, head, vertex, fragment, log);
+    const hc_result result = hc_gl_build_relief(program, head, log);
     if (result == HC_OK) {
         glUseProgram(*program);
         hc_gl_set(*program, stage, method);
@@ -111,8 +105,9 @@ static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
     if (result != HC_OK) {
         return result;
     }
+    /* Zero, since a context that is lost gives nothing back. */
     c->back =
-        malloc((size_t)stage->width * (size_t)c->rows * CHANNELS * (PLANES + 1) * sizeof *c->back);
+        calloc((size_t)stage->width * (size_t)c->rows * CHANNELS * (PLANES + 1), sizeof *c->back);
     warm_up(c);
     return c->back != NULL ? HC_OK : hc_fail(log, HC_ERROR_MEMORY, "no memory for what GL draws");
 }

@@ -9,15 +9,6 @@
 
 enum { FILES_MAX = 4, MESSAGE_MAX = 512 };
 
-const char *hc_shader_text_named(const char *name)
-{
-    const hc_shader_text *text = hc_shader_texts;
-    while (strcmp(text->name, name) != 0) {
-        text++;
-    }
-    return text->text;
-}
-
 static int count_lines(const char *text)
 {
     int lines = 0;
@@ -103,4 +94,23 @@ hc_result hc_gl_build(unsigned *program, const char *head, const hc_shader_text 
     glDeleteShader(first);
     glDeleteShader(second);
     return result;
+}
+
+static const char *text_named(const char *name)
+{
+    const hc_shader_text *text = hc_shader_texts;
+    while (strcmp(text->name, name) != 0) {
+        text++;
+    }
+    return text->text;
+}
+
+hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log)
+{
+    const hc_shader_text vertex[]   = { { "relief.vert", text_named("relief.vert") },
+                                        { NULL, NULL } };
+    const hc_shader_text fragment[] = { { "heightcast.glsl", text_named("heightcast.glsl") },
+                                        { "relief.frag", text_named("relief.frag") },
+                                        { NULL, NULL } };
+    return hc_gl_build(program, head, vertex, fragment, log);
 }
