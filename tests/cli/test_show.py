@@ -39,6 +39,20 @@ class Show(Case):
         self.assertEqual(width, MARGIN + 2 * (drawn[0] + MARGIN))
         self.assertEqual(height, MARGIN + 2 * (drawn[1] + MARGIN + ABOVE + BELOW))
 
+    def test_the_map_of_2006_is_shown_with_its_root(self):
+        """Half a field per height: the root of 0.5, as code 180 of 255, rounded down."""
+        self.write_pgm("a.pgm", [[0, 255]])
+        self.run_program("bake", "a.pgm", "map.png", "--layout", "dummer")
+        channels = self.json("show", "map.png", "--out", "p.png")["channels"]
+        self.assertEqual([(c["channel"], c["top"]) for c in channels],
+                         [("height", 1), ("root", 1), ("slope_x", 1), ("slope_y", 1)])
+        _, _, rows = self.picture("map.png")
+        x = 256 + 2 * MARGIN + 20
+        part = 180 / 255 * 4 - 2
+        expected = [a + part * (b - a) for a, b in zip((190, 50, 110), (245, 140, 50))]
+        for value, wanted in zip(rows[MARGIN + ABOVE + 64][3 * x : 3 * x + 3], expected):
+            self.assertAlmostEqual(value, wanted, delta=1)
+
     def test_scale_ends_at_most_ratios(self):
         self.run_program("bake", self.hills(), "a.npy")
         ratios = sorted(r for r in self.read_npy("a.npy")[1][1::2] if r != float("inf"))

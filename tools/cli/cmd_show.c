@@ -34,12 +34,21 @@ static double top_of_most(const float *values, size_t count, float *samples)
     return finite > 0 ? (double)samples[(finite - 1) * 95 / 100] : 0.0;
 }
 
+/* The 2006 map holds the roots of its ratios, and is shown as its paper shows it. */
+static bool is_root(const hc_cli_anyfile *file, int channel)
+{
+    return file->is_map && file->map.info.layout == HC_LAYOUT_DUMMER
+           && file->channels[channel].cone >= 0;
+}
+
 /* Level 0 of a channel. Gradients are drawn by their steepness, whichever way they fall. */
 static void copy_channel(float *values, const hc_cli_anyfile *file, int channel)
 {
     const size_t texels = (size_t)file->width * (size_t)file->height;
+    const bool   root   = is_root(file, channel);
     for (size_t i = 0; i < texels; i++) {
-        values[i] = fabsf(hc_cli_anyfile_value(file, channel, i));
+        const float value = fabsf(hc_cli_anyfile_value(file, channel, i));
+        values[i]         = root ? sqrtf(value) : value;
     }
 }
 
@@ -47,7 +56,8 @@ static void copy_channel(float *values, const hc_cli_anyfile *file, int channel)
 static bool is_fraction(const hc_cli_anyfile *file, int channel)
 {
     const bool gradient = file->is_map && file->map.info.layout == HC_LAYOUT_GRADIENT;
-    return file->channels[channel].cone < 0 && !(gradient && file->map.info.bits == 32);
+    return is_root(file, channel)
+           || (file->channels[channel].cone < 0 && !(gradient && file->map.info.bits == 32));
 }
 
 /* One scale for all ratios, so that quadrants can be compared. */
@@ -59,8 +69,9 @@ static void fill_panels(hc_cli_panel *panels, float *values, float *samples,
     for (int i = 0; i < file->channel_count; i++) {
         float *channel = values + texels * (size_t)i;
         copy_channel(channel, file, i);
-        panels[i] =
-            (hc_cli_panel){ .values = channel, .title = file->channels[i].name, .top = 1.0 };
+        panels[i] = (hc_cli_panel){ .values = channel,
+                                    .title  = is_root(file, i) ? "root" : file->channels[i].name,
+                                    .top    = 1.0 };
         if (!is_fraction(file, i)) {
             panels[i].top = top_of_most(channel, texels, samples);
             top           = fmax(top, panels[i].top);
