@@ -43,6 +43,12 @@ for body in cylinder sphere torus; do
     relief relief_$body $work/tile.npy --object $body --size 640x480
 done
 
+edge="--depth 0.4 --camera 1.5,-2.4,1.3 --at 0,0,-0.1 --fov 45 --size 400x267"
+for how in wall discard clamp; do
+    # shellcheck disable=SC2086
+    relief edge_$how $work/tile.npy $edge --edge $how
+done
+
 # The 2006 paper: its three marchers, with dark outlines where steps were too few; its map.
 low="--camera -0.9,-2.4,0.75 --at 0,-0.1,-0.1 --fov 40 --size 400x240"
 while read -r method steps; do

@@ -31,7 +31,7 @@
  *          relaxed: relaxed ratios; cone-*, robust, quick: those of l2 cones.
  * Safe     safe and maxmip lose no first hit, and make none up, but for rounding: heights that the
  *          ray misses by less than 2^-20, places that it misses by 2^-22 of the field's side.
- * Speed    fewer steps for distant surfaces: lower hc_step_count (hc_steps_for); or fade the depth
+ * Speed    fewer steps for distant surfaces: set hc_step_limit (hc_steps_for); or fade the depth
  *          out (hc_fade). */
 
 #define HC_SAFE 1
@@ -84,6 +84,9 @@ uniform int   hc_refinements; /* bisections; -1: one secant, -2: none           
 /* Reads of textures so far, if you care. */
 int hc_fetch_count = 0;
 
+/* Set it where a ray may do with fewer steps than hc_step_count; 0: it may not. */
+int hc_step_limit = 0;
+
 /* ---- results --------------------------------------------------------------------------------- */
 
 /* flags: the ray starts in the solid; it comes in through a side; the steps ran out */
@@ -111,6 +114,11 @@ struct hc_found {
     float s; /* HC_MISS: nothing */
     int   flags, steps;
 };
+
+int hc_most_steps(void)
+{
+    return hc_step_limit > 0 ? min(hc_step_limit, hc_step_count) : hc_step_count;
+}
 
 ivec2 hc_index(ivec2 texel)
 {
@@ -482,14 +490,15 @@ hc_found hc_march_parallax(hc_path path)
     return hc_found(path.along.z < 0.0 && s <= hc_image_end(path) ? s : HC_MISS, 0, 1);
 }
 
-/* The first of hc_step_count equal steps that is at or under the surface, and the place before
+/* The first of hc_most_steps() equal steps that is at or under the surface, and the place before
  * it. */
 vec2 hc_first_below(hc_path path, inout int steps)
 {
     float last  = path.from;
     float leave = hc_image_end(path);
-    for (int i = 1; i <= hc_step_count; i++) {
-        float s = path.from + (leave - path.from) * (float(i) / float(hc_step_count));
+    int   most  = hc_most_steps();
+    for (int i = 1; i <= most; i++) {
+        float s = path.from + (leave - path.from) * (float(i) / float(most));
         steps++;
         if (hc_image_gap(path, s) <= 0.0) {
             return vec2(last, s);
@@ -598,7 +607,8 @@ hc_found hc_march_cones(hc_path path)
     float above = s;
     float gap   = hc_image_gap(path, s);
     int   steps = 0;
-    for (int i = 0; i < hc_step_count && gap > 0.0; i++) {
+    int   most  = hc_most_steps();
+    for (int i = 0; i < most && gap > 0.0; i++) {
         float next = s + hc_step_of(path, run, s, gap);
         steps++;
         above = s;
@@ -776,10 +786,11 @@ float hc_fragment_depth(float distance_, float near, float far)
 /* ---- distance -------------------------------------------------------------------------------- */
 
 /* Steps that are enough at a distance, where a tile covers fewer pixels: all of hc_step_count
- * within `near`, `least` beyond `far`. Set hc_step_count to it. */
+ * within `near`, `least` beyond `far`. Set hc_step_limit to it. */
 int hc_steps_for(float distance_, float near, float far, int most, int least)
 {
-    return int(mix(float(most), float(least), smoothstep(near, far, distance_)) + 0.5);
+    return int(mix(float(most), float(least), smoothstep(near, max(far, near + 1e-6),
+                                                            distance_)) + 0.5);
 }
 
 /* Share of the relief that is left at a distance: 1 before `near`, 0 beyond `far`. Multiply the

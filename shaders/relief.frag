@@ -11,6 +11,12 @@
 #define SPHERE 2
 #define TORUS 3
 
+/* What becomes of rays beside the plane's top face, as HC_EDGE: a block with walls; they are
+ * dropped; they go on over the rim's heights. */
+#define WALL 0
+#define DISCARD 1
+#define CLAMP 2
+
 /* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
 uniform vec3  u_eye, u_forward, u_right, u_down;
 uniform bool  u_orthographic;
@@ -20,9 +26,11 @@ uniform vec2  u_sample;      /* where in the pixel, 0 .. 1, y down */
 uniform vec2  u_depth_range; /* near and far plane */
 
 uniform int   u_body;
-uniform bool  u_discard;         /* plane: only rays through the top face */
+uniform int   u_edge;            /* of the plane, as HC_EDGE below */
 uniform float u_depth;           /* of the relief, in the world */
 uniform vec2  u_fade;            /* where it begins to sink into the hull, and is gone; 0: never */
+uniform vec2  u_lod;             /* where steps begin to get fewer, and are u_lod_steps; 0: never */
+uniform int   u_lod_steps;
 uniform float u_radius, u_ring;  /* of the hull; of the circle a torus goes along */
 uniform vec2  u_half;            /* half sides of the plane; y: half the cylinder's height */
 uniform vec2  u_repeat;          /* tiles */
@@ -204,26 +212,66 @@ vec2 plane_span(vec3 origin, vec3 direction, out int through)
     return span;
 }
 
-void across_plane(inout sight s, vec3 origin, vec3 direction)
+/* Where the rim goes on outwards the ray ends at the bottom, wherever that is. */
+vec2 edge_span(vec3 origin, vec3 direction, bool of_light, out int through)
 {
-    int    through;
-    vec2   span = plane_span(origin, direction, through);
-    hc_hit hit;
-    bool top = through == 2 && direction.z < 0.0;
-    if (span.x > span.y || (u_discard && !top)) {
-        return;
+    vec2 inside = plane_span(origin, direction, through);
+    if (u_edge != CLAMP || (!of_light && inside.x > inside.y)) {
+        return inside;
     }
-    frame f     = frame_at(origin);
-    vec3  from  = place_of(origin + span.x * direction);
-    vec3  along = hc_to_texture(direction, f.along_u, f.along_v, f.out_, f.scale, relief_depth);
-    vec3  to    = from + (span.y - span.x) * along;
-    from.xy     = clamp(from.xy, vec2(0.0), u_repeat);
-    to.xy       = clamp(to.xy, vec2(BRINK), u_repeat - BRINK);
-    if (march(s, from, to, hit)) {
-        s.distance_ = span.x + (span.y - span.x) * hit.t;
-        if (!top && through >= 0 && starts_in_solid(hit)) {
-            s.cut = cut_normal(through, direction);
+    vec2 span = vec2(0.0, HC_MISS);
+    int  slab = -1;
+    clip(span, slab, origin.z, direction.z, -relief_depth, 0.0, 2);
+    return vec2(of_light ? span.x : inside.x, span.y);
+}
+
+bool comes_in(vec2 span, int through, bool of_light, vec3 direction)
+{
+    bool top = (through == 2 || (u_edge == CLAMP && of_light)) && direction.z < 0.0;
+    return span.x <= span.y && (u_edge == WALL || top);
+}
+
+/* Beyond a side the clamped place stands still along that axis, so the ray is straight in texture
+ * space from one crossing of the sides' planes to the next: this one, after t. */
+float next_crossing(float t, float end, vec3 origin, vec3 direction)
+{
+    float next = end;
+    for (int i = 0; i < 4; i++) {
+        int   axis   = i / 2;
+        float side   = i % 2 == 0 ? -u_half[axis] : u_half[axis];
+        float cross_ = direction[axis] == 0.0 ? HC_MISS : (side - origin[axis]) / direction[axis];
+        next         = cross_ > t && cross_ < next ? cross_ : next;
+    }
+    return next;
+}
+
+void across_plane(inout sight s, vec3 origin, vec3 direction, bool of_light)
+{
+    int   through;
+    vec2  span   = edge_span(origin, direction, of_light, through);
+    bool  top    = through == 2 && direction.z < 0.0;
+    float brink  = u_edge == CLAMP ? BRINK : 0.0;
+    float t      = span.x;
+    int   pieces = !comes_in(span, through, of_light, direction) ? 0 : u_edge == CLAMP ? 5 : 1;
+    frame f      = frame_at(origin);
+    vec3  along  = hc_to_texture(direction, f.along_u, f.along_v, f.out_, f.scale, relief_depth);
+    vec3  start  = place_of(origin + t * direction);
+    for (; pieces > 0; pieces--) {
+        float  next = u_edge == CLAMP ? next_crossing(t, span.y, origin, direction) : span.y;
+        vec3   from = start + (t - span.x) * along;
+        vec3   to   = start + (next - span.x) * along;
+        hc_hit hit;
+        from.xy = clamp(from.xy, vec2(brink), u_repeat - brink);
+        to.xy   = clamp(to.xy, vec2(BRINK), u_repeat - BRINK);
+        if (march(s, from, to, hit)) {
+            s.distance_ = t + (next - t) * hit.t;
+            if (!top && through >= 0 && starts_in_solid(hit)) {
+                s.cut = cut_normal(through, direction);
+            }
+            return;
         }
+        t      = next;
+        pieces = t < span.y ? pieces : 1;
     }
 }
 
@@ -282,24 +330,31 @@ void along_shell(inout sight s, vec3 origin, vec3 direction)
     }
 }
 
-sight look(vec3 origin, vec3 direction)
+/* of_light: the ray comes from there, not from the eye. They differ at a clamped edge: the light
+ * also comes down to ground that only continues the texture. */
+sight look(vec3 origin, vec3 direction, bool of_light)
 {
     sight s = sight(HC_MISS, vec3(0.0), vec3(0.0), 0, false, false);
     if (u_body == PLANE) {
-        across_plane(s, origin, direction);
+        across_plane(s, origin, direction, of_light);
     } else {
         along_shell(s, origin, direction);
     }
     return s;
 }
 
-/* What is left of the depth for a ray of the eye. */
-float faded(vec3 origin, vec3 direction)
+/* The relief as a ray of the eye sees it, and that of the light from there: flatter where it
+ * fades, with fewer steps far away. */
+void gaze(vec3 origin, vec3 direction)
 {
-    int  through;
-    vec2 span = u_body == PLANE ? plane_span(origin, direction, through)
-                                : round_span(origin, direction, through);
-    return u_fade.y > 0.0 ? max(hc_fade(span.x, u_fade.x, u_fade.y), FLATTEST) : 1.0;
+    int   through;
+    float away = (u_body == PLANE ? plane_span(origin, direction, through)
+                                  : round_span(origin, direction, through)).x;
+    float left = u_fade.y > 0.0 ? max(hc_fade(away, u_fade.x, u_fade.y), FLATTEST) : 1.0;
+    relief_depth *= left;
+    if (u_lod.y > 0.0) {
+        hc_step_limit = hc_steps_for(away, u_lod.x, u_lod.y, hc_step_count, u_lod_steps);
+    }
 }
 
 /* ---- light
@@ -339,7 +394,8 @@ vec3 normal_at(sight s, vec3 point)
 /* A ray from the light that ends before the point leaves it in shadow. */
 bool in_shadow(vec3 point, vec3 to_light, float distance_)
 {
-    return look(point + distance_ * to_light, -to_light).distance_ < distance_ - u_shadow_slip;
+    return look(point + distance_ * to_light, -to_light, true).distance_
+           < distance_ - u_shadow_slip;
 }
 
 vec3 shade(sight s, vec3 normal, vec3 point, vec3 direction)
@@ -370,8 +426,8 @@ void main(void)
     vec3  origin    = u_orthographic ? u_eye + moved : u_eye;
     vec3  direction = u_orthographic ? u_forward : normalize(u_forward + moved);
     relief_depth    = u_depth;
-    relief_depth    = u_depth * faded(origin, direction);
-    sight s         = look(origin, direction);
+    gaze(origin, direction);
+    sight s         = look(origin, direction, false);
     vec3  point     = origin + min(s.distance_, 1e6) * direction;
     float fetches   = float(hc_fetch_count);
     bool  hit       = s.distance_ < HC_MISS;

@@ -34,9 +34,11 @@ HC_API const char *hc_body_name(hc_body body); /* "plane", ...; static */
 /* What becomes of rays that come to the plane beside its top face.
  * wall     the plane is a block: they hit its sides
  * discard  as on a polygon in an engine: only rays that enter through the top face are drawn, and
- *          those that leave the texture below it are dropped */
-typedef enum hc_edge { HC_EDGE_WALL = 0, HC_EDGE_DISCARD } hc_edge;
-HC_API const char *hc_edge_name(hc_edge edge); /* "wall", "discard"; static */
+ *          those that leave the texture below it are dropped
+ * clamp    likewise, but those that leave the texture go on: the heights of its rim continue
+ *          outwards for ever, as texture units clamp. Each ray through the top face hits */
+typedef enum hc_edge { HC_EDGE_WALL = 0, HC_EDGE_DISCARD, HC_EDGE_CLAMP } hc_edge;
+HC_API const char *hc_edge_name(hc_edge edge); /* "wall", "discard", "clamp"; static */
 
 typedef struct hc_relief {
     hc_field         field; /* heights are borrowed */
@@ -50,6 +52,9 @@ typedef struct hc_relief {
     float fade[2];   /* distances from the eye, to where a ray comes to the body's box or ball, at
                           which the relief begins to sink into the hull and is gone; so there is no
                           seam where an engine takes a plain polygon. 0 0: never */
+    float lod[2];    /* likewise: rays take trace.steps before the first, lod_steps beyond the
+                        second, in methods that count them. 0 0: trace.steps everywhere */
+    int   lod_steps; /* [1 .. trace.steps]  0: a quarter of trace.steps, rounded up */
     int   repeat[2]; /* tiles along u and v  [1 .. 256]  0: plane 1 1, cylinder 2 1, sphere 4 2,
                           torus 4 2 */
 } hc_relief;

@@ -7,20 +7,23 @@ typedef struct job {
     const hc_stage *stage;
 } job;
 
+static hc_sight look(const hc_stage *stage, const hc_gaze *gaze, const hc_tracer *tracer)
+{
+    return hc_sight_along(&gaze->shape, stage->scene.relief.edge, HC_SIGHT_OF_EYE, tracer,
+                          gaze->origin, gaze->direction);
+}
+
 static void draw_sample(hc_pixel *pixel, const hc_stage *stage, double x, double y, int row)
 {
-    const hc_edge edge = stage->scene.relief.edge;
-    double        origin[3], direction[3];
-    hc_sample     sample;
-    hc_eye_ray(&stage->eye, origin, direction, x, y);
-    const hc_shape shape = hc_stage_shape(stage, origin, direction);
-    const hc_sight sight = hc_sight_along(&shape, edge, stage->tracer, origin, direction);
-    hc_shade(&sample, stage, &shape, &sight, origin, direction);
+    hc_gaze   gaze;
+    hc_sample sample;
+    hc_stage_gaze(stage, &gaze, x, y);
+    const hc_sight sight = look(stage, &gaze, gaze.tracer);
+    hc_shade(&sample, stage, &gaze, &sight);
     if (stage->exact != NULL) {
-        sample.exact =
-            (float)hc_sight_along(&shape, edge, stage->exact, origin, direction).distance;
+        sample.exact = (float)look(stage, &gaze, stage->exact).distance;
     }
-    hc_pixel_add(pixel, stage, &sample, direction, row);
+    hc_pixel_add(pixel, stage, &sample, gaze.direction, row);
 }
 
 static void draw_row(void *context, int row, int worker)

@@ -20,8 +20,8 @@ const char *hc_body_name(hc_body body)
 
 const char *hc_edge_name(hc_edge edge)
 {
-    static const char *const names[] = { "wall", "discard" };
-    return name_of(names, 2, (unsigned)edge);
+    static const char *const names[] = { "wall", "discard", "clamp" };
+    return name_of(names, 3, (unsigned)edge);
 }
 
 const char *hc_view_name(hc_view view)

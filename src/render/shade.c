@@ -64,7 +64,7 @@ static void normal_at(double normal[3], const hc_stage *stage, const hc_shape *s
 
 /* A ray from the light that ends before the point leaves it in shadow. It comes from there, as the
  * 2006 paper has it, since published methods cannot start on the surface. */
-static bool in_shadow(const hc_stage *stage, const hc_shape *shape, const double point[3],
+static bool in_shadow(const hc_stage *stage, const hc_gaze *gaze, const double point[3],
                       const double to_light[3], double distance)
 {
     double origin[3], along[3];
@@ -72,8 +72,8 @@ static bool in_shadow(const hc_stage *stage, const hc_shape *shape, const double
     for (int i = 0; i < 3; i++) {
         along[i] = -to_light[i];
     }
-    const hc_sight sight =
-        hc_sight_along(shape, stage->scene.relief.edge, stage->tracer, origin, along);
+    const hc_sight sight = hc_sight_along(&gaze->shape, stage->scene.relief.edge, HC_SIGHT_OF_LIGHT,
+                                          gaze->tracer, origin, along);
     return sight.distance < distance - stage->shadow_slip;
 }
 
@@ -85,9 +85,8 @@ static double power_of_two(double base, int exponent)
     return base;
 }
 
-static void light(double rgb[3], const hc_stage *stage, const hc_shape *shape,
-                  const double albedo[3], const double normal[3], const double point[3],
-                  const double direction[3])
+static void light(double rgb[3], const hc_stage *stage, const hc_gaze *gaze, const double albedo[3],
+                  const double normal[3], const double point[3])
 {
     const hc_material *m        = &stage->scene.material;
     double             distance = HC_SUN_AWAY;
@@ -101,9 +100,9 @@ static void light(double rgb[3], const hc_stage *stage, const hc_shape *shape,
     const double facing = hc_dot(normal, to_light);
     const bool   dark =
         !(facing > 0.0)
-        || (!stage->scene.light.no_shadows && in_shadow(stage, shape, point, to_light, distance));
+        || (!stage->scene.light.no_shadows && in_shadow(stage, gaze, point, to_light, distance));
     double half[3];
-    hc_add_scaled(half, to_light, -1.0, direction);
+    hc_add_scaled(half, to_light, -1.0, gaze->direction);
     (void)hc_unit(half);
     const double shine =
         (double)m->specular * power_of_two(fmax(hc_dot(normal, half), 0.0), m->gloss);
@@ -113,8 +112,7 @@ static void light(double rgb[3], const hc_stage *stage, const hc_shape *shape,
     }
 }
 
-void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_shape *shape,
-              const hc_sight *sight, const double origin[3], const double direction[3])
+void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_gaze *gaze, const hc_sight *sight)
 {
     double albedo[3], normal[3], point[3], rgb[3];
     *sample = (hc_sample){ .distance    = (float)sight->distance,
@@ -126,10 +124,10 @@ void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_shape *shape,
     if (!(sight->distance < INFINITY)) {
         return;
     }
-    hc_add_scaled(point, origin, sight->distance, direction);
+    hc_add_scaled(point, gaze->origin, sight->distance, gaze->direction);
     albedo_at(albedo, stage, sight);
-    normal_at(normal, stage, shape, sight, point);
-    light(rgb, stage, shape, albedo, normal, point, direction);
+    normal_at(normal, stage, &gaze->shape, sight, point);
+    light(rgb, stage, gaze, albedo, normal, point);
     for (int i = 0; i < 3; i++) {
         sample->normal[i] = (float)normal[i];
         sample->rgb[i]    = (float)rgb[i];

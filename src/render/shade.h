@@ -24,9 +24,8 @@ typedef struct hc_pixel {
     int   hits, entered, unconverged, lost, made_up, exact, both;
 } hc_pixel;
 
-/* `shape` as the ray saw it. Light what the CPU's ray came to. */
-void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_shape *shape,
-              const hc_sight *sight, const double origin[3], const double direction[3]);
+/* Light what the CPU's ray came to. */
+void hc_shade(hc_sample *sample, const hc_stage *stage, const hc_gaze *gaze, const hc_sight *sight);
 
 /* Add what a ray saw; `direction` is the ray's. */
 void hc_pixel_add(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sample,

@@ -15,7 +15,10 @@ static const double RADIUS_LEAST = 0.004;
  * that wraps would begin. */
 static const double BRINK = 1e-6;
 
-enum { PIECES_MAX = 1024 }; /* far more than a ray needs; a bound for NaNs */
+enum {
+    PIECES_MAX  = 1024, /* far more than a ray needs; a bound for NaNs */
+    PIECES_FLAT = 5     /* between four sides' planes */
+};
 
 typedef struct span {
     double from, to;
@@ -73,29 +76,75 @@ static span plane_span(const hc_shape *shape, const double origin[3], const doub
     return s;
 }
 
-static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge,
+/* Where the rim goes on outwards the ray ends at the bottom, wherever that is. */
+static span edge_span(const hc_shape *shape, hc_edge edge, hc_sight_of of, const double origin[3],
+                      const double direction[3])
+{
+    const span inside = plane_span(shape, origin, direction);
+    span       s      = { 0.0, INFINITY, -1 };
+    if (edge != HC_EDGE_CLAMP || (of == HC_SIGHT_OF_EYE && !(inside.from <= inside.to))) {
+        return inside;
+    }
+    clip(&s, origin[2], direction[2], -shape->depth, 0.0, 2);
+    return (span){ of == HC_SIGHT_OF_EYE ? inside.from : s.from, s.to,
+                   of == HC_SIGHT_OF_EYE ? inside.through : s.through };
+}
+
+static bool comes_in(const span *s, hc_edge edge, hc_sight_of of, const double direction[3])
+{
+    const bool down = direction[2] < 0.0;
+    const bool top =
+        (s->through == 2 || (edge == HC_EDGE_CLAMP && of == HC_SIGHT_OF_LIGHT)) && down;
+    return s->from <= s->to && (edge == HC_EDGE_WALL || top);
+}
+
+/* Beyond a side the clamped place stands still along that axis, so the ray is straight in texture
+ * space from one crossing of the sides' planes to the next: this one, after t. */
+static double next_crossing(const hc_shape *shape, const span *s, double t, const double origin[3],
+                            const double direction[3])
+{
+    double next = s->to;
+    for (int i = 0; i < 4; i++) {
+        const double side  = (i % 2 == 0 ? -1.0 : 1.0) * shape->half[i / 2];
+        const double cross = (side - origin[i / 2]) / direction[i / 2];
+        next               = cross > t && cross < next ? cross : next; /* false for NaN */
+    }
+    return next;
+}
+
+static void place_on_plane(const hc_shape *shape, double uvh[3], double t, double brink,
+                           const double origin[3], const double direction[3])
+{
+    double point[3];
+    hc_add_scaled(point, origin, t, direction);
+    hc_shape_place(shape, uvh, point);
+    for (int i = 0; i < 2; i++) {
+        uvh[i] = fmin(fmax(uvh[i], brink), shape->repeat[i] - brink);
+    }
+}
+
+static void across_plane(hc_sight *sight, const hc_shape *shape, hc_edge edge, hc_sight_of of,
                          const hc_tracer *tracer, const double origin[3], const double direction[3])
 {
-    const span s = plane_span(shape, origin, direction);
-    double     point[3], a[3], b[3];
-    const bool top = s.through == 2 && direction[2] < 0.0;
-    if (!(s.from <= s.to) || (edge == HC_EDGE_DISCARD && !top)) {
-        return;
-    }
-    hc_add_scaled(point, origin, s.from, direction);
-    hc_shape_place(shape, a, point);
-    hc_add_scaled(point, origin, s.to, direction);
-    hc_shape_place(shape, b, point);
-    for (int i = 0; i < 2; i++) {
-        a[i] = fmin(fmax(a[i], 0.0), shape->repeat[i]);
-        b[i] = fmin(fmax(b[i], BRINK), shape->repeat[i] - BRINK);
-    }
-    if (!march(sight, tracer, a, b)) {
-        return;
-    }
-    sight->distance = s.from + (s.to - s.from) * (double)sight->hit.t;
-    if (!top && s.through >= 0 && starts_in_solid(&sight->hit)) {
-        set_cut(sight, s.through, direction);
+    const span s       = edge_span(shape, edge, of, origin, direction);
+    const bool clamped = edge == HC_EDGE_CLAMP;
+    double     t       = s.from;
+    double     a[3], b[3];
+    int        pieces = !comes_in(&s, edge, of, direction) ? 0 : clamped ? PIECES_FLAT : 1;
+    for (; pieces > 0; pieces--) {
+        const double next = clamped ? next_crossing(shape, &s, t, origin, direction) : s.to;
+        place_on_plane(shape, a, t, clamped ? BRINK : 0.0, origin, direction);
+        place_on_plane(shape, b, next, BRINK, origin, direction);
+        if (march(sight, tracer, a, b)) {
+            const bool side = s.through >= 0 && !(s.through == 2 && direction[2] < 0.0);
+            sight->distance = t + (next - t) * (double)sight->hit.t;
+            if (side && starts_in_solid(&sight->hit)) {
+                set_cut(sight, s.through, direction);
+            }
+            return;
+        }
+        t      = next;
+        pieces = t < s.to ? pieces : 1;
     }
 }
 
@@ -163,12 +212,12 @@ double hc_sight_entry(const hc_shape *shape, const double origin[3], const doubl
     return s.from <= s.to ? s.from : INFINITY;
 }
 
-hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, const hc_tracer *tracer,
-                        const double origin[3], const double direction[3])
+hc_sight hc_sight_along(const hc_shape *shape, hc_edge edge, hc_sight_of of,
+                        const hc_tracer *tracer, const double origin[3], const double direction[3])
 {
     hc_sight sight = { .distance = INFINITY };
     if (shape->body == HC_BODY_PLANE) {
-        across_plane(&sight, shape, edge, tracer, origin, direction);
+        across_plane(&sight, shape, edge, of, tracer, origin, direction);
     } else {
         through_shell(&sight, shape, tracer, origin, direction);
     }

@@ -21,7 +21,7 @@ static hc_result check_relief(const hc_relief *relief, hc_log *log)
     const bool     torus = relief->body == HC_BODY_TORUS;
     const unsigned wrap  = (unsigned)relief->field.wrap;
     CHECK(check_whole("relief.body", (int)relief->body, 0, HC_BODY_TORUS, log));
-    CHECK(check_whole("relief.edge", (int)relief->edge, 0, HC_EDGE_DISCARD, log));
+    CHECK(check_whole("relief.edge", (int)relief->edge, 0, HC_EDGE_CLAMP, log));
     CHECK(check_whole("relief.repeat[0]", relief->repeat[0], 0, REPEAT_MAX, log));
     CHECK(check_whole("relief.repeat[1]", relief->repeat[1], 0, REPEAT_MAX, log));
     const float deepest = torus ? 0.36F : relief->body == HC_BODY_CYLINDER ? 0.54F : 0.9F;
@@ -29,6 +29,9 @@ static hc_result check_relief(const hc_relief *relief, hc_log *log)
     CHECK(check_number("relief.aspect", relief->aspect, 0.0F, 64.0F, log));
     CHECK(check_number("relief.fade[0]", relief->fade[0], 0.0F, 1e9F, log));
     CHECK(check_number("relief.fade[1]", relief->fade[1], relief->fade[0], 1e9F, log));
+    CHECK(check_number("relief.lod[0]", relief->lod[0], 0.0F, 1e9F, log));
+    CHECK(check_number("relief.lod[1]", relief->lod[1], relief->lod[0], 1e9F, log));
+    CHECK(check_whole("relief.lod_steps", relief->lod_steps, 0, relief->trace.steps, log));
     if (relief->trace.surface != HC_SURFACE_BILINEAR || relief->trace.placement.scale_z != 0.0) {
         return hc_fail(log, HC_ERROR_ARGUMENT,
                        "relief.trace has a surface or a placement of its own; leave them zero");
@@ -98,6 +101,9 @@ static void resolve_relief(hc_relief *relief)
     if (relief->trace.steps == 0) {
         relief->trace.steps = hc_trace_method_steps(relief->trace.method);
     }
+    if (relief->lod_steps == 0) {
+        relief->lod_steps = (relief->trace.steps + 3) / 4;
+    }
     if (relief->trace.refinements == 0) {
         relief->trace.refinements = HC_REFINEMENTS_DEFAULT;
     }
@@ -151,17 +157,35 @@ static void aim(hc_stage *stage)
     stage->far          = fmax(middle + stage->shape.bound, stage->near + 1e-6);
 }
 
-hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3])
+/* Share of the way from near to far, with smooth ends: 0 before, 1 beyond. */
+static double share_of_way(const float range[2], double away)
 {
-    const double near  = (double)stage->scene.relief.fade[0];
-    const double far   = (double)stage->scene.relief.fade[1];
-    hc_shape     shape = stage->shape;
-    if (far > 0.0) {
-        const double away  = hc_sight_entry(&shape, origin, direction);
-        const double share = fmin(fmax((away - near) / fmax(far - near, 1e-9), 0.0), 1.0);
-        shape.depth *= fmax(1.0 - share * share * (3.0 - 2.0 * share), FLATTEST);
+    const double near   = (double)range[0];
+    const double length = fmax((double)range[1] - near, 1e-6);
+    const double share  = fmin(fmax((away - near) / length, 0.0), 1.0);
+    return share * share * (3.0 - 2.0 * share);
+}
+
+void hc_stage_gaze(const hc_stage *stage, hc_gaze *gaze, double x, double y)
+{
+    const hc_relief *relief = &stage->scene.relief;
+    hc_eye_ray(&stage->eye, gaze->origin, gaze->direction, x, y);
+    gaze->shape  = stage->shape;
+    gaze->tracer = stage->tracer;
+    if (!(relief->fade[1] > 0.0F || relief->lod[1] > 0.0F)) {
+        return;
     }
-    return shape;
+    const double away = hc_sight_entry(&gaze->shape, gaze->origin, gaze->direction);
+    if (relief->fade[1] > 0.0F) {
+        gaze->shape.depth *= fmax(1.0 - share_of_way(relief->fade, away), FLATTEST);
+    }
+    if (relief->lod[1] > 0.0F) {
+        const double most           = relief->trace.steps;
+        const double fewer          = (most - relief->lod_steps) * share_of_way(relief->lod, away);
+        gaze->thinned               = *stage->tracer;
+        gaze->thinned.options.steps = (int)(most - fewer + 0.5);
+        gaze->tracer                = &gaze->thinned;
+    }
 }
 
 /* ---- the light ----------------------------------------------------------------------------- */

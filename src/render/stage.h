@@ -5,6 +5,8 @@
 #include "eye.h"
 #include "sight.h"
 
+#include "trace/tracer.h"
+
 typedef struct hc_stage {
     hc_scene          scene; /* defaults resolved */
     hc_render_options options;
@@ -28,7 +30,15 @@ bool hc_view_compares(hc_view view);
 /* A sun's rays start so far from what they light: outside every body. */
 #define HC_SUN_AWAY 8.0
 
-/* The shape as this ray of the eye sees it: flatter where the relief fades. */
-hc_shape hc_stage_shape(const hc_stage *stage, const double origin[3], const double direction[3]);
+/* A ray of the eye, and the relief as it sees it: flatter where it fades, with fewer steps far
+ * away. The ray of the light from there sees the same. */
+typedef struct hc_gaze {
+    double           origin[3], direction[3];
+    hc_shape         shape;
+    const hc_tracer *tracer;
+    hc_tracer        thinned; /* what `tracer` is where the steps are fewer */
+} hc_gaze;
+
+void hc_stage_gaze(const hc_stage *stage, hc_gaze *gaze, double x, double y);
 
 #endif

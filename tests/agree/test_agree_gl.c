@@ -153,6 +153,34 @@ static void other_choices(void **state)
     compare(&scene, HC_VIEW_SHADED);
 }
 
+/* With shadows on the ground that goes on over the rim. */
+static void a_clamped_edge(void **state)
+{
+    static const hc_trace_method methods[] = { HC_TRACE_SAFE, HC_TRACE_RELIEF, HC_TRACE_ROBUST };
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        hc_scene scene       = scene_of(HC_BODY_PLANE, methods[i]);
+        scene.relief.edge    = HC_EDGE_CLAMP;
+        scene.relief.depth   = 0.5F;
+        scene.light.place[0] = 1.0;
+        scene.light.place[1] = 0.5;
+        scene.light.place[2] = 0.6;
+        compare(&scene, HC_VIEW_SHADED);
+    }
+}
+
+static void fewer_steps_far_away(void **state)
+{
+    (void)state;
+    for (int body = 0; body <= HC_BODY_TORUS; body += HC_BODY_TORUS) {
+        hc_scene scene      = scene_of((hc_body)body, HC_TRACE_RELIEF);
+        scene.relief.lod[0] = 2.0F;
+        scene.relief.lod[1] = 6.0F;
+        compare(&scene, HC_VIEW_SHADED);
+        assert_true(fabs(gl.picture.figures.mean_steps - cpu.picture.figures.mean_steps) < 0.02);
+    }
+}
+
 static void fading(void **state)
 {
     (void)state;
@@ -289,6 +317,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(every_method_on_every_body),
         cmocka_unit_test(other_choices),
+        cmocka_unit_test(a_clamped_edge),
+        cmocka_unit_test(fewer_steps_far_away),
         cmocka_unit_test(fading),
         cmocka_unit_test(views_and_albedo),
         cmocka_unit_test(depths_agree),

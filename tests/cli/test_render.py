@@ -92,6 +92,18 @@ class Render(Case):
         flat = ["--camera", "0,-4,0.05"]
         polygon = self.render(*flat, "--edge", "discard")
         self.assertGreater(self.render(*flat)["hits"], polygon["hits"])
+        low = ["--camera", "0,-2.4,1", "--depth", "0.5"]
+        dropped = self.render(*low, "--edge", "discard")
+        self.assertGreater(self.render(*low, "--edge", "clamp")["hits"], dropped["hits"])
+
+    def test_fewer_steps_far_away(self):
+        linear = ["--method", "linear", "--steps", "24"]
+        plain = self.render(*linear)
+        fewer = self.render(*linear, "--lod", "1:2")
+        fewest = self.render(*linear, "--lod", "1:2", "--lod-steps", "1")
+        self.assertGreater(plain["mean_steps"], 3 * fewer["mean_steps"])
+        self.assertGreater(fewer["mean_steps"], 1.2)
+        self.assertEqual(fewest["mean_steps"], 1)
 
     def test_albedo(self):
         self.path("red.ppm").write_bytes(b"P6\n1 1\n255\n" + bytes([200, 0, 0]))
@@ -156,6 +168,10 @@ class Render(Case):
             (["relief", field, "--out", "b.png", "--refine", "none", "--refinements", "3"],
              "--refine none"),
             (["relief", field, "--out", "b.png", "--cones", "l2"], "l1 or quad"),
+            (["relief", field, "--out", "b.png", "--lod", "1:2"], "nothing with --method safe"),
+            (["relief", field, "--out", "b.png", "--lod-steps", "2"], "--lod-steps needs --lod"),
+            (["relief", field, "--out", "b.png", "--method", "linear", "--lod", "1:2",
+              "--lod-steps", "40"], "relief.lod_steps is 40"),
             (["relief", field, "--out", "b.png", "--object", "torus", "--depth", "0.5"],
              "relief.depth is 0.5"),
             (["relief", field, "--out", "b.png", "--repeat", "2", "--wrap", "none"],
@@ -175,6 +191,16 @@ class Render(Case):
                      says="--overwrite")
         self.assertEqual(self.path("a.png").read_bytes(), b"precious")
         self.assertEqual(self.files(), ["a.png", "bad.pgm", "hills.pgm"])
+
+    def test_fields_that_are_too_large_for_opengl(self):
+        figures = self.render("--backend", "gl")
+        if figures["backend"] == "cpu":
+            self.skipTest(figures["warnings"][0])
+        self.write_pgm("wide.pgm", [[i % 256 for i in range(65536)]])
+        self.refused("render", "relief", "wide.pgm", "--out", "b.png", "--backend", "gl",
+                     "--size", "32x24", code=MEMORY,
+                     says=["field of 65536 x 1: textures of this driver have at most", "use cpu"])
+        self.assertFalse(self.path("b.png").exists())
 
     def test_too_large(self):
         self.refused("render", "relief", self.hills(), "--out", "b.png", "--size", "32768x16384",

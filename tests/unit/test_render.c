@@ -153,6 +153,16 @@ static double outside_level(hc_body body, const double p[3], double depth)
     }
 }
 
+/* A level relief, by parallel rays along y. */
+static hc_scene seen_from_front(hc_body body, hc_trace_method method, float depth, float width)
+{
+    hc_scene scene            = scene_of(level_heights, body, method);
+    scene.relief.depth        = depth;
+    scene.camera.eye[1]       = -3.0;
+    scene.camera.orthographic = width;
+    return scene;
+}
+
 /* Parallel rays along y: a point of the picture is x, z, and the depth is y from the eye. The
  * surface is where its formula says, within the bend that is allowed. */
 static void level_bodies_are_where_they_should_be(void **state)
@@ -160,10 +170,7 @@ static void level_bodies_are_where_they_should_be(void **state)
     (void)state;
     static shot s;
     for (int body = HC_BODY_CYLINDER; body <= HC_BODY_TORUS; body++) {
-        hc_scene scene            = scene_of(level_heights, (hc_body)body, HC_TRACE_MAXMIP);
-        scene.relief.depth        = 0.2F;
-        scene.camera.eye[1]       = -3.0;
-        scene.camera.orthographic = 3.0F;
+        const hc_scene scene = seen_from_front((hc_body)body, HC_TRACE_MAXMIP, 0.2F, 3.0F);
         draw(&s, &scene, NULL);
         int hits = 0;
         for (int i = 0; i < WIDE * HIGH; i++) {
@@ -185,11 +192,8 @@ static void level_bodies_are_where_they_should_be(void **state)
 static void level_silhouettes_are_exact(void **state)
 {
     (void)state;
-    static shot s;
-    hc_scene    scene         = scene_of(level_heights, HC_BODY_SPHERE, HC_TRACE_SAFE);
-    scene.relief.depth        = 0.4F;
-    scene.camera.eye[1]       = -3.0;
-    scene.camera.orthographic = 2.2F;
+    static shot    s;
+    const hc_scene scene = seen_from_front(HC_BODY_SPHERE, HC_TRACE_SAFE, 0.4F, 2.2F);
     draw(&s, &scene, NULL);
     for (int i = 0; i < WIDE * HIGH; i++) {
         const double x = 2.2 * ((i % WIDE + 0.5) / WIDE - 0.5);
@@ -231,10 +235,7 @@ static void edges(void **state)
 {
     (void)state;
     static shot s;
-    hc_scene    scene         = scene_of(level_heights, HC_BODY_PLANE, HC_TRACE_SAFE);
-    scene.relief.depth        = 0.8F;
-    scene.camera.eye[1]       = -3.0;
-    scene.camera.orthographic = 3.0F;
+    hc_scene    scene = seen_from_front(HC_BODY_PLANE, HC_TRACE_SAFE, 0.8F, 3.0F);
     draw(&s, &scene, NULL);
     const int middle = (HIGH / 2 + 10) * WIDE + WIDE / 2; /* z = -0.66 */
     assert_true(fabs((double)s.depth[middle] - 2.0) < 1e-6);
@@ -242,6 +243,98 @@ static void edges(void **state)
     scene.relief.edge = HC_EDGE_DISCARD;
     draw(&s, &scene, NULL);
     assert_int_equal(s.picture.figures.hits, 0);
+}
+
+/* Where an orthographic ray straight along y, tilted down by half, comes to a pixel's depth. */
+static void point_of(double p[3], const hc_scene *scene, int pixel, double depth)
+{
+    const double width  = (double)scene->camera.orthographic;
+    const double x      = width * ((pixel % WIDE + 0.5) / WIDE - 0.5);
+    const double y      = width / WIDE * (HIGH / 2.0 - pixel / WIDE - 0.5);
+    const double length = sqrt(1.25);
+    p[0]                = scene->camera.eye[0] + x;
+    p[1]                = scene->camera.eye[1] + y * 0.5 / length + depth / length;
+    p[2]                = scene->camera.eye[2] + y / length - depth * 0.5 / length;
+}
+
+/* Height of the ground below a point, whose rim goes on outwards. */
+static double clamped_ground(const hc_scene *scene, const double p[3])
+{
+    const double u = fmin(fmax(0.5 + 0.5 * p[0], 1e-6), 1.0 - 1e-6);
+    const double v = fmin(fmax(0.5 - 0.5 * p[1], 1e-6), 1.0 - 1e-6);
+    const double h = hc_field_surface(&scene->relief.field, u, v);
+    return (double)scene->relief.depth * (h - 1.0);
+}
+
+/* Each ray through the top face hits, on the ground that goes on over the rim, and not later than
+ * it should: halfway to the hit it is still above. */
+static void a_clamped_edge_goes_on(void **state)
+{
+    (void)state;
+    static shot s;
+    hc_scene    scene         = scene_of(hills, HC_BODY_PLANE, HC_TRACE_SAFE);
+    int         beside        = 0;
+    scene.relief.edge         = HC_EDGE_CLAMP;
+    scene.relief.depth        = 0.8F;
+    scene.camera.eye[1]       = -2.0;
+    scene.camera.eye[2]       = 1.0;
+    scene.camera.orthographic = 3.0F;
+    draw(&s, &scene, NULL);
+    for (int i = 0; i < WIDE * HIGH; i++) {
+        double top[3], p[3];
+        point_of(top, &scene, i, 0.0);
+        point_of(top, &scene, i, top[2] * sqrt(1.25) / 0.5);
+        const bool through = fabs(top[0]) < 1.0 && fabs(top[1]) < 1.0;
+        assert_int_equal(isfinite(s.depth[i]) ? 1 : 0, through ? 1 : 0);
+        if (!through) {
+            continue;
+        }
+        point_of(p, &scene, i, (double)s.depth[i]);
+        assert_true(fabs(p[2] - clamped_ground(&scene, p)) < 1e-4);
+        beside += fabs(p[0]) > 1.0 || fabs(p[1]) > 1.0;
+        for (int k = 1; k < 100; k++) {
+            double before[3];
+            for (int axis = 0; axis < 3; axis++) {
+                before[axis] = top[axis] + 0.01 * k * (p[axis] - top[axis]);
+            }
+            assert_true(before[2] > clamped_ground(&scene, before) - 1e-5);
+        }
+    }
+    assert_true(beside > 20);
+}
+
+/* Near by all steps are taken, far away the fewest, and between them some. */
+static void steps_fall_with_distance(void **state)
+{
+    (void)state;
+    static shot most, least, between;
+    for (int body = 0; body <= HC_BODY_TORUS; body++) {
+        hc_scene scene           = scene_of(hills, (hc_body)body, HC_TRACE_LINEAR);
+        scene.relief.trace.steps = 24;
+        draw(&most, &scene, NULL);
+        scene.relief.trace.steps = 6;
+        draw(&least, &scene, NULL);
+        scene.relief.trace.steps = 24;
+        scene.relief.lod[0]      = 100.0F;
+        scene.relief.lod[1]      = 200.0F;
+        draw(&between, &scene, NULL);
+        assert_memory_equal(most.rgb, between.rgb, sizeof most.rgb);
+        scene.relief.lod[0] = 0.1F;
+        scene.relief.lod[1] = 0.2F;
+        draw(&between, &scene, NULL); /* 24 / 4 */
+        assert_memory_equal(least.rgb, between.rgb, sizeof most.rgb);
+        scene.relief.lod[1]    = 10.0F;
+        scene.relief.lod_steps = 2;
+        draw(&between, &scene, NULL);
+        assert_true(between.picture.figures.mean_steps < 0.9 * most.picture.figures.mean_steps);
+        assert_true(memcmp(between.rgb, least.rgb, sizeof most.rgb) != 0);
+    }
+    hc_scene bad         = scene_of(hills, HC_BODY_PLANE, HC_TRACE_LINEAR);
+    bad.relief.lod_steps = 33;
+    refuse(&bad, NULL, "relief.lod_steps is 33; it must be 0 .. 32");
+    bad.relief.lod_steps = 0;
+    bad.relief.lod[0]    = 1.0F;
+    refuse(&bad, NULL, "relief.lod[1] is 0");
 }
 
 /* Before it begins to fade the relief is as it was, beyond it lies in the hull. */
@@ -459,8 +552,8 @@ static void bad_scenes_are_refused(void **state)
     bad.relief.body = (hc_body)4;
     refuse(&bad, NULL, "relief.body is 4");
     bad             = good;
-    bad.relief.edge = (hc_edge)2;
-    refuse(&bad, NULL, "relief.edge is 2");
+    bad.relief.edge = (hc_edge)3;
+    refuse(&bad, NULL, "relief.edge is 3");
 }
 
 static void cancelling(void **state)
@@ -496,6 +589,8 @@ int main(void)
         cmocka_unit_test(level_silhouettes_are_exact),
         cmocka_unit_test(a_plane_from_above),
         cmocka_unit_test(edges),
+        cmocka_unit_test(a_clamped_edge_goes_on),
+        cmocka_unit_test(steps_fall_with_distance),
         cmocka_unit_test(relief_fades),
         cmocka_unit_test(a_shadow_has_its_length),
         cmocka_unit_test(a_lamp_is_near),

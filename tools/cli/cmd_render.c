@@ -36,6 +36,21 @@ static int check_outputs(hc_cli *cli)
     return code;
 }
 
+static int check_lod(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const hc_trace_method  method =
+        hc_cli_given(settings, "method") ? (hc_trace_method)settings->rays.method : HC_TRACE_SAFE;
+    if (hc_cli_given(settings, "lod-steps") && !hc_cli_given(settings, "lod")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--lod-steps needs --lod, which says where");
+    }
+    if (hc_cli_given(settings, "lod") && hc_trace_method_steps(method) == 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--lod does nothing with --method %s",
+                           hc_trace_method_name(method));
+    }
+    return HC_CLI_DONE;
+}
+
 static int check_meaning(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
@@ -64,7 +79,7 @@ static int check_meaning(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
                            hc_cones_name(cones));
     }
-    return HC_CLI_DONE;
+    return check_lod(cli);
 }
 
 /* ---- the legend of heat maps ---- */

@@ -122,6 +122,9 @@ static void choose_scene(hc_cli_relief *relief, const hc_cli *cli)
     scene->relief.aspect            = aspect_of(settings, &relief->ground.field);
     scene->relief.fade[0]           = (float)render->fade[0];
     scene->relief.fade[1]           = (float)render->fade[1];
+    scene->relief.lod[0]            = (float)render->lod[0];
+    scene->relief.lod[1]            = (float)render->lod[1];
+    scene->relief.lod_steps         = render->lod_steps;
     memcpy(scene->relief.repeat, render->repeat, sizeof render->repeat);
     scene->light.lamp       = lamp;
     scene->light.no_shadows = render->shadows != 0;

@@ -49,7 +49,8 @@ typedef struct hc_cli_render {
     float         depth, aspect, ortho, top;
     int           repeat[2];
     int           samples;
-    double        fade[2];
+    double        fade[2], lod[2];
+    int           lod_steps;
     double        camera[3], light[3], lamp[3], colour[3];
     int           shadows; /* 0: on, 1: off */
     const char   *albedo, *depth_out;

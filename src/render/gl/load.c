@@ -164,10 +164,13 @@ static void set_shape(unsigned program, const hc_stage *stage)
 {
     const hc_shape *shape = &stage->shape;
     set_int(program, "u_body", (int)shape->body);
-    set_int(program, "u_discard", stage->scene.relief.edge == HC_EDGE_DISCARD);
+    set_int(program, "u_edge", (int)stage->scene.relief.edge);
     set_float(program, "u_depth", shape->depth);
     set_pair(program, "u_fade", (double)stage->scene.relief.fade[0],
              (double)stage->scene.relief.fade[1]);
+    set_pair(program, "u_lod", (double)stage->scene.relief.lod[0],
+             (double)stage->scene.relief.lod[1]);
+    set_int(program, "u_lod_steps", stage->scene.relief.lod_steps);
     set_float(program, "u_radius", shape->radius);
     set_float(program, "u_ring", shape->ring);
     set_pair(program, "u_half", shape->half[0], shape->half[1]);
