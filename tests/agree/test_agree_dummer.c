@@ -104,9 +104,10 @@ static void expect_agreement(const hc_stage *stage, const hc_picture *cpu)
     int          odd = 0, hits = 0;
     for (int i = 0; i < PIXELS; i++) {
         double origin[3], direction[3];
-        hc_stage_ray(stage, origin, direction, i % WIDE + 0.5, i / WIDE + 0.5);
-        const double along = direction[0] * stage->forward[0] + direction[1] * stage->forward[1]
-                             + direction[2] * stage->forward[2];
+        hc_eye_ray(&stage->eye, origin, direction, i % WIDE + 0.5, i / WIDE + 0.5);
+        const double along = direction[0] * stage->eye.forward[0]
+                             + direction[1] * stage->eye.forward[1]
+                             + direction[2] * stage->eye.forward[2];
         const bool   found = light[4 * i + 3] < 1e29F;
         const double away  = found ? (double)light[4 * i + 3] * along - (double)depth[i] : 0.0;
         bool         bad   = found != isfinite(depth[i]) || fabs(away) > 0x1p-12;
@@ -130,10 +131,10 @@ static void expect_projected_depths(const hc_stage *stage)
     int          seen = 0;
     for (int i = 0; i < PIXELS; i++) {
         double origin[3], direction[3];
-        hc_stage_ray(stage, origin, direction, i % WIDE + 0.5, i / WIDE + 0.5);
+        hc_eye_ray(&stage->eye, origin, direction, i % WIDE + 0.5, i / WIDE + 0.5);
         double along = 0.0;
         for (int k = 0; k < 3; k++) {
-            along += direction[k] * stage->forward[k] * (double)light[4 * i + 3];
+            along += direction[k] * stage->eye.forward[k] * (double)light[4 * i + 3];
         }
         const double clip_z = ((far + near) * along - 2.0 * far * near) / (far - near);
         const bool   found  = light[4 * i + 3] < 1e29F;

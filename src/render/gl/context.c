@@ -40,7 +40,7 @@ static hc_result open_display(hc_gl_context *context, hc_log *log)
     return HC_OK;
 }
 
-/* A context that says so when the card was reset under it, where the driver can; else a plain one. */
+/* A context that says when the card was reset under it, where the driver can; else a plain one. */
 static EGLContext make_context(EGLDisplay display)
 {
     static const EGLint watchful[] = { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
