@@ -67,6 +67,10 @@ float relief_depth;
  * that wraps would begin. */
 #define BRINK 1e-6
 
+/* Rays that come down end so far below the bottom, in depths of the relief: ground of height 0 is
+ * a hit, however the end is rounded. */
+#define BELOW (1.0 / 16384.0)
+
 /* ---- angles: what atan gives is too coarse on some cards
  * -------------------------------------- */
 
@@ -202,13 +206,19 @@ vec3 cut_normal(int axis, vec3 direction)
     return normal;
 }
 
+void clip_slab(inout vec2 span, inout int through, vec3 origin, vec3 direction)
+{
+    float low = relief_depth * (direction.z < 0.0 ? 1.0 + BELOW : 1.0);
+    clip(span, through, origin.z, direction.z, -low, 0.0, 2);
+}
+
 vec2 plane_span(vec3 origin, vec3 direction, out int through)
 {
     vec2 span = vec2(0.0, HC_MISS);
     through   = -1;
     clip(span, through, origin.x, direction.x, -u_half.x, u_half.x, 0);
     clip(span, through, origin.y, direction.y, -u_half.y, u_half.y, 1);
-    clip(span, through, origin.z, direction.z, -relief_depth, 0.0, 2);
+    clip_slab(span, through, origin, direction);
     return span;
 }
 
@@ -221,7 +231,7 @@ vec2 edge_span(vec3 origin, vec3 direction, bool of_light, out int through)
     }
     vec2 span = vec2(0.0, HC_MISS);
     int  slab = -1;
-    clip(span, slab, origin.z, direction.z, -relief_depth, 0.0, 2);
+    clip_slab(span, slab, origin, direction);
     return vec2(of_light ? span.x : inside.x, span.y);
 }
 

@@ -15,6 +15,10 @@ static const double RADIUS_LEAST = 0.004;
  * that wraps would begin. */
 static const double BRINK = 1e-6;
 
+/* Rays that come down end so far below the bottom, in depths of the relief: ground of height 0 is
+ * a hit, however the end is rounded. */
+static const double BELOW = 0x1p-14;
+
 enum {
     PIECES_MAX  = 1024, /* far more than a ray needs; a bound for NaNs */
     PIECES_FLAT = 5     /* between four sides' planes */
@@ -67,12 +71,19 @@ static bool starts_in_solid(const hc_hit *hit)
 
 /* ---- the plane ------------------------------------------------------------------------------- */
 
+static void clip_slab(span *s, const hc_shape *shape, const double origin[3],
+                      const double direction[3])
+{
+    const double low = shape->depth * (direction[2] < 0.0 ? 1.0 + BELOW : 1.0);
+    clip(s, origin[2], direction[2], -low, 0.0, 2);
+}
+
 static span plane_span(const hc_shape *shape, const double origin[3], const double direction[3])
 {
     span s = { 0.0, INFINITY, -1 };
     clip(&s, origin[0], direction[0], -shape->half[0], shape->half[0], 0);
     clip(&s, origin[1], direction[1], -shape->half[1], shape->half[1], 1);
-    clip(&s, origin[2], direction[2], -shape->depth, 0.0, 2);
+    clip_slab(&s, shape, origin, direction);
     return s;
 }
 
@@ -85,7 +96,7 @@ static span edge_span(const hc_shape *shape, hc_edge edge, hc_sight_of of, const
     if (edge != HC_EDGE_CLAMP || (of == HC_SIGHT_OF_EYE && !(inside.from <= inside.to))) {
         return inside;
     }
-    clip(&s, origin[2], direction[2], -shape->depth, 0.0, 2);
+    clip_slab(&s, shape, origin, direction);
     return (span){ of == HC_SIGHT_OF_EYE ? inside.from : s.from, s.to,
                    of == HC_SIGHT_OF_EYE ? inside.through : s.through };
 }
