@@ -2,10 +2,13 @@
 
 import math
 import os
+import signal
 import struct
+import subprocess
+import time
 
 from picture import read_picture
-from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, USAGE, Case, main
+from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE, Case, main
 
 BODIES = ["plane", "cylinder", "sphere", "torus"]
 METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
@@ -165,6 +168,11 @@ class Render(Case):
             (["relief", field, "--out", "b.jpg"], ".png, .exr"),
             (["relief", field, "--out", "b.png", "--depth-out", "d.png"], ".exr, .pfm, .npy"),
             (["relief", field, "--out", "b.png", "--lamp", "0,0,1", "--light", "0,0,1"], "exclude"),
+            (["relief", field, "--out", "b.png", "--light", "0,0,0"], "no direction"),
+            (["relief", field, "--out", "b.png", "--colour", "0,2,0"], "2 is not from 0 to 1"),
+            (["relief", field, "--out", "b.png", "--colour", "0,1,0", "--albedo", field],
+             "exclude"),
+            (["relief", field, "--out", "b.exr", "--depth-out", "b.exr"], "the same file, b.exr"),
             (["relief", field, "--out", "b.png", "--refine", "none", "--refinements", "3"],
              "--refine none"),
             (["relief", field, "--out", "b.png", "--cones", "l2"], "l1 or quad"),
@@ -201,6 +209,44 @@ class Render(Case):
                      "--size", "32x24", code=MEMORY,
                      says=["field of 65536 x 1: textures of this driver have at most", "use cpu"])
         self.assertFalse(self.path("b.png").exists())
+
+    def test_ctrl_c(self):
+        """A picture that takes far longer than anyone waits here."""
+        self.hills()
+        self.path("a.png").write_bytes(b"precious")
+        for backend in ["cpu", "gl"]:
+            running = subprocess.Popen(
+                [PROGRAM, "render", "relief", "hills.pgm", "--out", "a.png", "--overwrite",
+                 "--backend", backend, "--size", "4000x3000", "--samples", "64",
+                 "--depth-out", "d.npy"],
+                cwd=self.folder, stdin=subprocess.DEVNULL, stderr=subprocess.PIPE)
+            self.wait_until_it_catches(running, signal.SIGINT)
+            time.sleep(0.3)  # until it draws
+            running.send_signal(signal.SIGINT)
+            _, error = running.communicate(timeout=60)
+            self.assertEqual(running.returncode, 130, error)
+            self.assertIn(b"signal", error)
+            self.assertEqual(self.path("a.png").read_bytes(), b"precious")
+            self.assertEqual(self.files(), ["a.png", "hills.pgm"])
+
+    def test_odd_sizes(self):
+        for size in ["1x1", "1x300", "301x1"]:
+            for backend in ["cpu", "gl"]:
+                figures = self.render("--size", size, "--backend", backend)
+                width, height, _ = read_picture(self.path("a.png").read_bytes())
+                self.assertEqual(f"{width}x{height}", size)
+                self.assertEqual(figures["rays"], width * height)
+        for columns, rows in [(1, 1), (1, 7), (9, 1)]:
+            self.write_pgm("odd.pgm", [[(x * 5 + y * 3) % 8 * 30 for x in range(columns)]
+                                       for y in range(rows)])
+            for body in BODIES:
+                truths = [self.render("--object", body, "--view", "missed", "--aspect", "1",
+                                      "--backend", backend, field="odd.pgm")
+                          for backend in ["cpu", "gl"]]
+                for truth in truths:
+                    self.assertEqual((truth["lost"], truth["made_up"]), (0, 0))
+                self.assertGreater(truths[0]["hits"], 200)
+                self.assertLessEqual(abs(truths[0]["hits"] - truths[1]["hits"]), 1)
 
     def test_too_large(self):
         self.refused("render", "relief", self.hills(), "--out", "b.png", "--size", "32768x16384",

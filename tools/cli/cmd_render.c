@@ -32,8 +32,35 @@ static int check_outputs(hc_cli *cli)
     if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
         code =
             hc_cli_check_ending(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
+        if (code == HC_CLI_DONE && strcmp(settings->out, settings->render.depth_out) == 0) {
+            code = hc_cli_fail(cli, HC_CLI_USAGE, "--out and --depth-out are the same file, %s",
+                               settings->out);
+        }
     }
     return code;
+}
+
+static int check_light(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const double          *light    = settings->render.light;
+    const double          *colour   = settings->render.colour;
+    if (hc_cli_given(settings, "lamp") && hc_cli_given(settings, "light")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--lamp and --light exclude each other");
+    }
+    if (hc_cli_given(settings, "albedo") && hc_cli_given(settings, "colour")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--albedo and --colour exclude each other");
+    }
+    if (hc_cli_given(settings, "light")
+        && fabs(light[0]) + fabs(light[1]) + fabs(light[2]) == 0.0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--light 0,0,0 is no direction");
+    }
+    for (int i = 0; i < 3; i++) {
+        if (!(colour[i] >= 0.0 && colour[i] <= 1.0)) {
+            return hc_cli_fail(cli, HC_CLI_USAGE, "--colour: %g is not from 0 to 1", colour[i]);
+        }
+    }
+    return HC_CLI_DONE;
 }
 
 static int check_lod(hc_cli *cli)
@@ -68,9 +95,6 @@ static int check_meaning(hc_cli *cli)
                            settings->size.width, settings->size.height,
                            (unsigned long long)HC_CLI_PIXELS_MAX);
     }
-    if (hc_cli_given(settings, "lamp") && hc_cli_given(settings, "light")) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--lamp and --light exclude each other");
-    }
     if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",
                            hc_cli_refine_words((int)settings->render.refine));
@@ -79,7 +103,8 @@ static int check_meaning(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
                            hc_cones_name(cones));
     }
-    return check_lod(cli);
+    const int code = check_light(cli);
+    return code == HC_CLI_DONE ? check_lod(cli) : code;
 }
 
 /* ---- the legend of heat maps ---- */
