@@ -10,7 +10,7 @@ foreach(name IN LISTS NAMES)
   math(EXPR index "${index} + 1")
 endforeach()
 file(WRITE ${OUTPUT} "/* Made by cmake/embed.cmake. */
-#include \"render/gl/program.h\"
+#include \"gl/program.h\"
 
 ${arrays}
 const hc_shader_text hc_shader_texts[] = {

@@ -18,7 +18,8 @@ ARROWS = {
     "reference": ["base", "field"],
     "bake": ["base", "field", "maps"],
     "trace": ["base", "field", "maps"],
-    "render": ["base", "field", "maps", "trace"],
+    "gl": ["base"],
+    "render": ["base", "field", "maps", "trace", "gl"],
     "io": ["base", "field", "maps"],
 }
 

@@ -1,8 +1,8 @@
 /* From a scene to a picture. */
-#include "clock.h"
 #include "cpu.h"
 #include "gl/gl.h"
 
+#include "base/clock.h"
 #include "base/fail.h"
 
 #include <stdlib.h>

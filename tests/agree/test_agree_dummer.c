@@ -14,9 +14,8 @@
 
 #ifdef HC_HAVE_GL
 
-#include "render/gl/context.h"
+#include "gl/context.h"
 #include "render/gl/load.h"
-#include "render/gl/program.h"
 
 #include <epoxy/gl.h>
 

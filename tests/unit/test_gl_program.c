@@ -1,8 +1,8 @@
 /* Complaints of OpenGL: about shaders with file and line, about memory, about contexts that are
  * lost. What needs a context is skipped where there is none. */
 #ifdef HC_HAVE_GL
-#include "render/gl/context.h"
-#include "render/gl/program.h"
+#include "gl/context.h"
+#include "gl/program.h"
 
 #include <epoxy/gl.h>
 #endif

@@ -1,11 +1,10 @@
 /* Bands of rows are drawn, read back and added to the pixels, for each sample in a pixel. */
 #include "gl.h"
 
-#include "context.h"
 #include "load.h"
-#include "program.h"
 
-#include "../clock.h"
+#include "base/clock.h"
+#include "gl/context.h"
 
 #include <epoxy/gl.h>
 

@@ -1,8 +1,8 @@
 #include "load.h"
 
-#include "context.h"
-
 #include "base/fail.h"
+#include "gl/context.h"
+#include "gl/program.h"
 
 #include <epoxy/gl.h>
 
@@ -207,4 +207,20 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
     set_int(program, "u_orthographic", stage->scene.camera.orthographic > 0.0F);
     set_pair(program, "u_picture", stage->width, stage->height);
     set_pair(program, "u_depth_range", fmax(stage->near, 1e-3), stage->far);
+}
+
+/* ---- the program ---------------------------------------------------------------------------- */
+
+static hc_shader_text text(const char *name)
+{
+    return (hc_shader_text){ name, hc_shader_text_named(name) };
+}
+
+hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log)
+{
+    const hc_shader_text vertex[]   = { text("relief.vert"), { NULL, NULL } };
+    const hc_shader_text fragment[] = { text("heightcast.glsl"),
+                                        text("relief.frag"),
+                                        { NULL, NULL } };
+    return hc_gl_build(program, head, vertex, fragment, log);
 }

@@ -1,4 +1,5 @@
-/* A stage's field, ratios, pyramid and colours as textures, and its numbers as uniforms. */
+/* A stage's field, ratios, pyramid and colours as textures, its numbers as uniforms, its
+ * program. */
 #ifndef HC_RENDER_GL_LOAD_H
 #define HC_RENDER_GL_LOAD_H
 
@@ -15,6 +16,9 @@ enum {
 
 /* textures [out] names, by texture unit. */
 hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log);
+
+/* relief.vert, and relief.frag behind heightcast.glsl, with `head` before both. */
+hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log);
 
 /* Number of the tracer's method in heightcast.glsl; 0: it has none. */
 int hc_gl_method(hc_trace_method method);

@@ -1,5 +1,5 @@
-#ifndef HC_RENDER_CLOCK_H
-#define HC_RENDER_CLOCK_H
+#ifndef HC_BASE_CLOCK_H
+#define HC_BASE_CLOCK_H
 
 #include <time.h>
 

@@ -59,11 +59,9 @@ static hc_result compile(unsigned *shader, GLenum stage, const char *head,
     return complain(message, head, files, log);
 }
 
-static hc_result link(unsigned program, unsigned vertex, unsigned fragment, hc_log *log)
+static hc_result link(unsigned program, hc_log *log)
 {
     GLint good = GL_FALSE;
-    glAttachShader(program, vertex);
-    glAttachShader(program, fragment);
     glLinkProgram(program);
     glGetProgramiv(program, GL_LINK_STATUS, &good);
     if (good == GL_TRUE) {
@@ -75,28 +73,31 @@ static hc_result link(unsigned program, unsigned vertex, unsigned fragment, hc_l
                    (int)strcspn(message, "\n"), message);
 }
 
-hc_result hc_gl_build(unsigned *program, const char *head, const hc_shader_text *vertex,
-                      const hc_shader_text *fragment, hc_log *log)
+typedef struct stage {
+    GLenum                kind;
+    const hc_shader_text *files;
+} stage;
+
+static hc_result build(unsigned *program, const char *head, const stage *stages, int count,
+                       hc_log *log)
 {
-    unsigned  first  = 0;
-    unsigned  second = 0;
-    hc_result result = compile(&first, GL_VERTEX_SHADER, head, vertex, log);
-    *program         = 0;
-    result = result != HC_OK ? result : compile(&second, GL_FRAGMENT_SHADER, head, fragment, log);
-    if (result == HC_OK) {
-        *program = glCreateProgram();
-        result   = link(*program, first, second, log);
+    hc_result result = HC_OK;
+    *program         = glCreateProgram();
+    for (int i = 0; i < count && result == HC_OK; i++) {
+        unsigned shader = 0;
+        result          = compile(&shader, stages[i].kind, head, stages[i].files, log);
+        glAttachShader(*program, shader);
+        glDeleteShader(shader); /* as soon as the program is */
     }
+    result = result == HC_OK ? link(*program, log) : result;
     if (result != HC_OK) {
         glDeleteProgram(*program);
         *program = 0;
     }
-    glDeleteShader(first);
-    glDeleteShader(second);
     return result;
 }
 
-static const char *text_named(const char *name)
+const char *hc_shader_text_named(const char *name)
 {
     const hc_shader_text *text = hc_shader_texts;
     while (strcmp(text->name, name) != 0) {
@@ -105,12 +106,16 @@ static const char *text_named(const char *name)
     return text->text;
 }
 
-hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log)
+hc_result hc_gl_build(unsigned *program, const char *head, const hc_shader_text *vertex,
+                      const hc_shader_text *fragment, hc_log *log)
 {
-    const hc_shader_text vertex[]   = { { "relief.vert", text_named("relief.vert") },
-                                        { NULL, NULL } };
-    const hc_shader_text fragment[] = { { "heightcast.glsl", text_named("heightcast.glsl") },
-                                        { "relief.frag", text_named("relief.frag") },
-                                        { NULL, NULL } };
-    return hc_gl_build(program, head, vertex, fragment, log);
+    const stage stages[] = { { GL_VERTEX_SHADER, vertex }, { GL_FRAGMENT_SHADER, fragment } };
+    return build(program, head, stages, 2, log);
+}
+
+hc_result hc_gl_build_compute(unsigned *program, const char *head, const hc_shader_text *compute,
+                              hc_log *log)
+{
+    const stage stages[] = { { GL_COMPUTE_SHADER, compute } };
+    return build(program, head, stages, 1, log);
 }

@@ -1,6 +1,6 @@
 /* An OpenGL context without a window. */
-#ifndef HC_RENDER_GL_CONTEXT_H
-#define HC_RENDER_GL_CONTEXT_H
+#ifndef HC_GL_CONTEXT_H
+#define HC_GL_CONTEXT_H
 
 #include <heightcast/result.h>
 
