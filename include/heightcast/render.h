@@ -137,12 +137,14 @@ typedef struct hc_render_figures {
     uint64_t rays, hits;
     uint64_t entered; /* come to the hull, or to a cut face */
     uint64_t unconverged;
-    uint64_t lost, made_up; /* views missed and error: against the exact caster      */
-    double   mean_steps;    /* of view rays that come to the hull                   */
-    double   mean_error;    /* view error: over rays that hit in both [world units] */
-    double   mean_fetches;  /* gl: texels read by them; cpu: 0                      */
-    double   top;           /* of the heat map, as it was drawn                     */
-    double   seconds;       /* spent drawing, less building, compiling and loading  */
+    uint64_t lost, made_up;  /* views missed and error: against the exact caster      */
+    double   mean_steps;     /* of view rays that come to the hull                   */
+    double   mean_error;     /* view error: over rays that hit in both [world units] */
+    double   mean_fetches;   /* gl: texels read by them; cpu: 0                      */
+    double   mean_crossings; /* terrain: moves from node to node                    */
+    double   within[3];      /* terrain: shares of them with up to 16, 35, 85       */
+    double   top;            /* of the heat map, as it was drawn                     */
+    double   seconds;        /* spent drawing, less building, compiling and loading  */
 } hc_render_figures;
 
 typedef struct hc_picture {
@@ -160,7 +162,7 @@ typedef struct hc_picture {
  * nowhere farther than 1/512 of the relief's depth from it, and a method starts anew on each. So
  * cones stay as safe as they are on the plane; docs/algorithms.md has the bound.
  *
- * Memory: 76 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for
+ * Memory: 92 bytes per pixel; the tracers. Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for
  * numbers out of range and fields that do not wrap as the body needs; HC_ERROR_MEMORY, on the GPU
  * too; HC_ERROR_CANCELLED. gl: HC_ERROR_UNSUPPORTED where there is no EGL, or no OpenGL 4.3, or
  * this build has none, and for fast; HC_ERROR_LIMIT for fields and pictures that are too large for

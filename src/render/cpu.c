@@ -23,7 +23,7 @@ static void draw_sample(hc_pixel *pixel, const hc_stage *stage, double x, double
     if (stage->exact != NULL) {
         sample.exact = (float)look(stage, &gaze, stage->exact).distance;
     }
-    hc_pixel_add(pixel, stage, &sample, gaze.direction, row);
+    hc_stage_add(pixel, stage, sample, gaze.direction, row);
 }
 
 static void draw_row(void *context, int row, int worker)

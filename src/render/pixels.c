@@ -25,41 +25,14 @@ static float slack_of(const hc_stage *stage)
     return (float)(stage->shape.depth / 64.0);
 }
 
-static void compare(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sample)
-{
-    const float slack = slack_of(stage);
-    pixel->lost += sample->exact + slack < sample->distance ? 1 : 0;
-    pixel->made_up += sample->distance + slack < sample->exact ? 1 : 0;
-    pixel->exact += sample->exact < INFINITY ? 1 : 0;
-    if (sample->distance < INFINITY && sample->exact < INFINITY) {
-        pixel->both++;
-        pixel->error += fabsf(sample->distance - sample->exact);
-    }
-}
-
-void hc_pixel_add(hc_pixel *pixel, const hc_stage *stage, const hc_sample *sample,
+void hc_stage_add(hc_pixel *pixel, const hc_stage *stage, hc_sample sample,
                   const double direction[3], int row)
 {
-    const bool hit = sample->distance < INFINITY;
-    float      empty[3];
-    background(empty, stage, row);
-    for (int i = 0; i < 3; i++) {
-        pixel->rgb[i] += hit ? sample->rgb[i] : empty[i];
-        pixel->normal[i] += hit ? sample->normal[i] : 0.0F;
+    if (!(sample.distance < INFINITY)) {
+        background(sample.rgb, stage, row);
     }
-    if (hit) {
-        const double along = (double)sample->distance * hc_dot(direction, stage->eye.forward);
-        pixel->depth       = pixel->hits > 0 ? fminf(pixel->depth, (float)along) : (float)along;
-        pixel->height += sample->height;
-        pixel->hits++;
-    }
-    pixel->steps += sample->steps;
-    pixel->fetches += sample->fetches;
-    pixel->entered += sample->entered ? 1 : 0;
-    pixel->unconverged += sample->unconverged ? 1 : 0;
-    if (hc_view_compares(stage->options.view)) {
-        compare(pixel, stage, sample);
-    }
+    hc_pixel_add(pixel, &sample, hc_dot(direction, stage->eye.forward),
+                 hc_view_compares(stage->options.view) ? slack_of(stage) : -1.0F);
 }
 
 /* ---- colours ------------------------------------------------------------------------------- */
@@ -143,38 +116,13 @@ static double top_of_most(const hc_stage *stage, const hc_pixel *pixels, size_t 
     return stage->options.view == HC_VIEW_STEPS ? fmax(ceil(top), 1.0) : fmax(top, 1e-9);
 }
 
-static void count(hc_render_figures *figures, const hc_stage *stage, const hc_pixel *pixels,
-                  size_t pixel_count)
-{
-    double   steps = 0.0, error = 0.0, fetches = 0.0;
-    uint64_t both = 0;
-    *figures = (hc_render_figures){ .rays    = pixel_count * (uint64_t)stage->scene.camera.samples,
-                                    .seconds = figures->seconds };
-    for (size_t i = 0; i < pixel_count; i++) {
-        const hc_pixel *p = &pixels[i];
-        figures->hits += (uint64_t)p->hits;
-        figures->unconverged += (uint64_t)p->unconverged;
-        figures->lost += (uint64_t)p->lost;
-        figures->made_up += (uint64_t)p->made_up;
-        figures->entered += (uint64_t)p->entered;
-        both += (uint64_t)p->both;
-        steps += (double)p->steps;
-        fetches += (double)p->fetches;
-        error += (double)p->error;
-    }
-    const double entered  = fmax((double)figures->entered, 1.0);
-    figures->mean_steps   = steps / entered;
-    figures->mean_fetches = fetches / entered;
-    figures->mean_error   = both > 0 ? error / (double)both : 0.0;
-}
-
 void hc_pixels_finish(hc_picture *picture, const hc_stage *stage, const hc_pixel *pixels,
                       float *scratch)
 {
     const size_t  pixel_count = (size_t)picture->width * (size_t)picture->height;
     const hc_view view        = stage->options.view;
     double        top         = (double)stage->options.top;
-    count(&picture->figures, stage, pixels, pixel_count);
+    hc_pixels_count(&picture->figures, pixels, pixel_count, stage->eye.samples);
     if (top <= 0.0 && (view == HC_VIEW_STEPS || view == HC_VIEW_ERROR)) {
         top = top_of_most(stage, pixels, pixel_count, scratch);
     }

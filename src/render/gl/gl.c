@@ -153,7 +153,7 @@ static void add_pixel(hc_pixel *pixel, const hc_stage *stage, const float *plane
                                .unconverged = counts[3] > 0.5F };
     double          origin[3], direction[3];
     hc_eye_ray(&stage->eye, origin, direction, x, y);
-    hc_pixel_add(pixel, stage, &sample, direction, row);
+    hc_stage_add(pixel, stage, sample, direction, row);
 }
 
 static void add_band(hc_pixel *pixels, const canvas *c, const hc_stage *stage, int first_row,
