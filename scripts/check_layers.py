@@ -33,6 +33,7 @@ PUBLIC = {
     "bake.h": "bake",
     "trace.h": "trace",
     "render.h": "render",
+    "terrain.h": "render",
     "io.h": "io",
 }
 UMBRELLA = "heightcast.h"

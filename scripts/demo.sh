@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Bake real elevations and a made texture in all layouts, verify them, draw them, cast rays at them;
-# into out/demo.
+# Bake real elevations and a made texture in all layouts, verify them, draw them, cast rays at them, fly
+# over them and walk on them; into out/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=build/heightcast
@@ -101,6 +101,11 @@ doing "casting rays"
 place=(--range data --space local --spacing 74.5,92.5)
 $program trace data/jacksboro_fault_dem.pgm "${place[@]}" --eye 15000,-35000,5000 \
     --at 15000,-14000,0 --size 1280x720 --picture $out/jacksboro_view.png --overwrite -q
+for tour in fly walk; do
+    doing "drawing the terrain: $tour"
+    $program render terrain data/jacksboro_fault_dem.pgm --spacing 74.5,92.5 --tour $tour \
+        --out $out/terrain_$tour.png --overwrite -q
+done
 doing ""
 cat <<END
 
@@ -121,4 +126,4 @@ lost: hits behind the surface, or none; too early: before it, or where nothing i
 maxmip may do neither; the others are given a fifth of a sample and 1/256 of the height.
 Pictures, made in $((SECONDS - start)) s:
 END
-ls $out/*view.png $out/*height_and_ratio.png $out/*quadrants.png $out/*quick_improved.png
+ls $out/terrain_*.png $out/*view.png $out/*height_and_ratio.png $out/*quadrants.png $out/*quick_improved.png

@@ -85,4 +85,28 @@ relief missed_cone-fixed $work/cobbles.npy --edge discard --method cone-fixed --
     --size 400x267
 relief error_cone-fixed $work/cobbles.npy --edge discard --method cone-fixed --view error \
     --size 400x267
+# Terrain: the real elevations from the air, on foot and out of a valley; figures of the 2009 paper.
+terrain() {
+    local name=$1
+    shift
+    $program render terrain data/jacksboro_fault_dem.pgm --spacing 74.5,92.5 \
+        --out $gallery/terrain_$name.png --overwrite -q "$@"
+}
+
+terrain fly --size 960x540
+terrain walk --tour walk --size 960x540
+for tour in up orbit; do
+    terrain $tour --tour $tour --size 480x270
+done
+for tour in fly walk; do
+    terrain crossings_$tour --tour $tour --method maxmip --view crossings --size 480x270
+done
+near=(--eye 9000,-16500,900 --at 12500,-13000,350 --colours plain --haze 1e30 --size 400x300)
+terrain near_steps "${near[@]}" --surface steps
+terrain near_blocky "${near[@]}" --blocky
+terrain near_smooth "${near[@]}"
+for colours in elevation slope; do
+    terrain $colours --colours $colours --size 480x270
+done
+terrain missed --method cone-loop --view missed --size 480x270
 ls $gallery/*.png

@@ -95,7 +95,9 @@ typedef struct hc_scene {
     hc_camera   camera;
 } hc_scene;
 
-/* shaded       as described, before a dark background
+/* Of terrain (terrain.h) there are shaded, height, normal, depth, missed and crossings; of relief all
+ * but crossings.
+ * shaded       as described, before a dark background
  * height       of the hit, black to white
  * normal       of the surface in the world, xyz as rgb, 0 in the middle
  * depth        along the view, near bright and far dark
@@ -106,7 +108,9 @@ typedef struct hc_scene {
  *              made up
  * error        distance from the exact hit, as a heat map that ends at `top`; red where it alone
  * hits,
- *              yellow where the method alone does */
+ *              yellow where the method alone does
+ * crossings    moves of the view ray from node to node as a spectrum: blue to sky-blue up to 16,
+ *              green to yellow up to 35, to red at 85, darker beyond */
 typedef enum hc_view {
     HC_VIEW_SHADED = 0,
     HC_VIEW_HEIGHT,
@@ -115,7 +119,8 @@ typedef enum hc_view {
     HC_VIEW_STEPS,
     HC_VIEW_UNCONVERGED,
     HC_VIEW_MISSED,
-    HC_VIEW_ERROR
+    HC_VIEW_ERROR,
+    HC_VIEW_CROSSINGS
 } hc_view;
 HC_API const char *hc_view_name(hc_view view); /* as above; NULL beyond the last. Static */
 

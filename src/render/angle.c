@@ -38,3 +38,16 @@ double hc_tangent(double x)
     }
     return x / rest;
 }
+
+/* From the tangent of half the angle, in the quarter of the circle that is nearest. */
+void hc_turn(double *cosine, double *sine, double turns)
+{
+    const double quarters = floor(4.0 * turns + 0.5);
+    const double t        = hc_tangent((turns - 0.25 * quarters) * HC_PI);
+    const double c        = (1.0 - t * t) / (1.0 + t * t);
+    const double s        = 2.0 * t / (1.0 + t * t);
+    const int    quarter  = (int)(quarters - 4.0 * floor(quarters / 4.0));
+    const double x[4]     = { c, -s, -c, s };
+    *cosine               = x[quarter];
+    *sine                 = x[(quarter + 3) % 4];
+}

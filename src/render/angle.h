@@ -10,4 +10,7 @@ double hc_angle(double y, double x);
 /* |x| < 1.49, in radians. */
 double hc_tangent(double x);
 
+/* Cosine and sine of an angle in full turns. */
+void hc_turn(double *cosine, double *sine, double turns);
+
 #endif

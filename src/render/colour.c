@@ -68,3 +68,9 @@ void hc_grey_down(float rgb[3])
     const float grey = 0.3F * rgb[0] + 0.6F * rgb[1] + 0.1F * rgb[2];
     rgb[0] = rgb[1] = rgb[2] = grey;
 }
+
+void hc_mark_wrong(float rgb[3], int lost, int made_up, float samples)
+{
+    hc_mix(rgb, (float)made_up / samples, 0.9F, 0.75F, 0.0F);
+    hc_mix(rgb, (float)lost / samples, 0.9F, 0.0F, 0.0F);
+}

@@ -12,4 +12,7 @@ void hc_mix(float rgb[3], float share, float r, float g, float b);
 
 void hc_grey_down(float rgb[3]);
 
+/* Shares of rays whose hits are wrong, on top of what is there: red and yellow. */
+void hc_mark_wrong(float rgb[3], int lost, int made_up, float samples);
+
 #endif

@@ -37,13 +37,6 @@ void hc_stage_add(hc_pixel *pixel, const hc_stage *stage, hc_sample sample,
 
 /* ---- colours ------------------------------------------------------------------------------- */
 
-/* Shares of rays whose hits are wrong, on top of what is there. */
-static void mark_wrong(float rgb[3], int lost, int made_up, float samples)
-{
-    hc_mix(rgb, (float)made_up / samples, 0.9F, 0.75F, 0.0F);
-    hc_mix(rgb, (float)lost / samples, 0.9F, 0.0F, 0.0F);
-}
-
 static void view_numbers(float rgb[3], const hc_stage *stage, const hc_pixel *p, double top)
 {
     const double hits = fmax(p->hits, 1);
@@ -74,12 +67,12 @@ static void colour(float rgb[3], const hc_stage *stage, const hc_pixel *p, doubl
         hc_mix(rgb, (float)p->unconverged / samples, 1.0F, 0.0F, 1.0F);
     } else if (view == HC_VIEW_MISSED) {
         hc_grey_down(rgb);
-        mark_wrong(rgb, p->lost, p->made_up, samples);
+        hc_mark_wrong(rgb, p->lost, p->made_up, samples);
     } else if (view != HC_VIEW_SHADED && seen) {
         view_numbers(rgb, stage, p, top);
     }
     if (view == HC_VIEW_ERROR) {
-        mark_wrong(rgb, p->exact - p->both, p->hits - p->both, samples);
+        hc_mark_wrong(rgb, p->exact - p->both, p->hits - p->both, samples);
     }
 }
 

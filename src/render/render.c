@@ -26,9 +26,9 @@ const char *hc_edge_name(hc_edge edge)
 
 const char *hc_view_name(hc_view view)
 {
-    static const char *const names[] = { "shaded", "height",      "normal", "depth",
-                                         "steps",  "unconverged", "missed", "error" };
-    return name_of(names, 8, (unsigned)view);
+    static const char *const names[] = { "shaded",      "height", "normal", "depth",    "steps",
+                                         "unconverged", "missed", "error",  "crossings" };
+    return name_of(names, 9, (unsigned)view);
 }
 
 static hc_result draw_by(hc_pixel *pixels, double *seconds, const hc_stage *stage, hc_log *log)

@@ -5,7 +5,8 @@ import subprocess
 
 from program import DONE, INPUT_OUTPUT, SOURCE, USAGE, Case, main
 
-COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "trace", "render", "bench"]
+COMMANDS = ["bake", "gen", "info", "show", "compare", "verify", "trace", "render",
+            "render terrain", "bench"]
 
 
 class Options(Case):
@@ -17,8 +18,8 @@ class Options(Case):
 
     def test_each_command_has_help(self):
         for command in COMMANDS:
-            text = self.text("help", command)
-            self.assertEqual(text, self.text(command, "--help"))
+            text = self.text("help", *command.split())
+            self.assertEqual(text, self.text(*command.split(), "--help"))
             self.assertIn(f"Usage: heightcast {command}", text)
             self.assertIn("Exit codes", text)
             # One word, the list of the methods, is longer than a line.
@@ -36,13 +37,13 @@ class Options(Case):
         manual = (SOURCE / "docs" / "heightcast.1").read_text().replace("\\-", "-")
         for command in COMMANDS:
             self.assertIn(f"heightcast {command}", manual)
-            for option in re.findall(r"^  (?:-., )?--([a-z-]+)", self.text("help", command), re.M):
+            for option in re.findall(r"^  (?:-., )?--([a-z-]+)", self.text("help", *command.split()), re.M):
                 self.assertRegex(manual, rf"--{option}\b", command)
 
     def test_the_manual_has_no_other_options(self):
         known = {"help", "version"}
         for command in COMMANDS:
-            known |= set(re.findall(r"--([a-z-]+)", self.text("help", command)))
+            known |= set(re.findall(r"--([a-z-]+)", self.text("help", *command.split())))
         manual = (SOURCE / "docs" / "heightcast.1").read_text().replace("\\-", "-")
         self.assertEqual(set(re.findall(r"--([a-z][a-z-]*)", manual)) - known, set())
 

@@ -164,7 +164,7 @@ class Render(Case):
         field = self.hills()
         for arguments, says in [
             (["relief", field], "needs --out"),
-            (["terrain", field, "--out", "b.png"], "'terrain'; relief is"),
+            (["relied", field, "--out", "b.png"], "'relied'; relief"),
             (["relief", field, "--out", "b.jpg"], ".png, .exr"),
             (["relief", field, "--out", "b.png", "--depth-out", "d.png"], ".exr, .pfm, .npy"),
             (["relief", field, "--out", "b.png", "--lamp", "0,0,1", "--light", "0,0,1"], "exclude"),

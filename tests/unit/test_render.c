@@ -576,7 +576,7 @@ static void names(void **state)
     assert_string_equal(hc_body_name(HC_BODY_TORUS), "torus");
     assert_string_equal(hc_edge_name(HC_EDGE_DISCARD), "discard");
     assert_string_equal(hc_view_name(HC_VIEW_ERROR), "error");
-    assert_null(hc_view_name((hc_view)8));
+    assert_null(hc_view_name((hc_view)(HC_VIEW_CROSSINGS + 1)));
     assert_null(hc_body_name((hc_body)-1));
 }
 

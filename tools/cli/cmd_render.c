@@ -83,7 +83,9 @@ static int check_meaning(hc_cli *cli)
     const hc_cli_settings *settings = &cli->settings;
     const hc_cones         cones    = settings->map.cone.cones;
     if (strcmp(settings->paths[0], "relief") != 0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "nothing that is drawn is called '%s'; relief is",
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "nothing that is drawn is called '%s'; relief and, right behind render, "
+                           "terrain are",
                            settings->paths[0]);
     }
     if (settings->size.width > SIDE_MAX || settings->size.height > SIDE_MAX) {

@@ -26,6 +26,7 @@ int hc_cli_run_compare(hc_cli *cli);
 int hc_cli_run_verify(hc_cli *cli);
 int hc_cli_run_trace(hc_cli *cli);
 int hc_cli_run_render(hc_cli *cli);
+int hc_cli_run_terrain(hc_cli *cli);
 int hc_cli_run_bench(hc_cli *cli);
 
 /* The whole program; returns the exit code. */

@@ -89,7 +89,7 @@ void hc_cli_help(void)
     (void)puts("Usage: heightcast COMMAND ...\n\n"
                "Height maps in, cone step maps, max-mip pyramids and ray hits out.\n\nCommands");
     for (const hc_cli_command *command = hc_cli_commands; command->name != NULL; command++) {
-        (void)printf("  %-8s %s\n", command->name, command->summary);
+        (void)printf("  %-14s %s\n", command->name, command->summary);
     }
     (void)puts("\n'heightcast help COMMAND' shows its options; --version shows the version.");
     print_exit_codes();

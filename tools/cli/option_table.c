@@ -7,10 +7,10 @@
 #define TARGET(member) offsetof(hc_cli_settings, member)
 #define LOADS                                                                                      \
     (HC_CLI_BAKE | HC_CLI_INFO | HC_CLI_COMPARE | HC_CLI_VERIFY | HC_CLI_SHOW | HC_CLI_TRACE       \
-     | HC_CLI_RENDER)
+     | HC_CLI_RENDER | HC_CLI_TERRAIN)
+#define DRAWS (HC_CLI_RENDER | HC_CLI_TERRAIN)
 #define WRITES                                                                                     \
-    (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW | HC_CLI_TRACE         \
-     | HC_CLI_RENDER)
+    (HC_CLI_BAKE | HC_CLI_GEN | HC_CLI_COMPARE | HC_CLI_BENCH | HC_CLI_SHOW | HC_CLI_TRACE | DRAWS)
 #define CASTS (HC_CLI_TRACE | HC_CLI_VERIFY)
 
 const hc_cli_option hc_cli_options[] = {
@@ -35,7 +35,7 @@ const hc_cli_option hc_cli_options[] = {
       .help = "What becomes height 0 and 1. data: the lowest and highest sample; type: 0 and the "
               "largest code; auto: data for float and georeferenced files, else type." },
     { .name     = "wrap",
-      .commands = LOADS,
+      .commands = LOADS & ~(unsigned)HC_CLI_TERRAIN,
       .read     = hc_cli_read_word,
       .target   = TARGET(load.wrap),
       .words    = hc_cli_wrap_words,
@@ -153,7 +153,7 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "The very bytes of the 2006 preprocessor, its faults included; implies --layout "
                   "dummer." },
     { .name     = "backend",
-      .commands = HC_CLI_BAKE | HC_CLI_RENDER | HC_CLI_BENCH,
+      .commands = HC_CLI_BAKE | DRAWS | HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_MAP,
       .read     = hc_cli_read_word,
       .target   = TARGET(backend),
@@ -211,7 +211,7 @@ const hc_cli_option hc_cli_options[] = {
       .help = "What rays are given in: u, v, height; world units from the first sample, x to the "
               "right, y to the top row, z the elevation; the same with the file's origin." },
     { .name     = "spacing",
-      .commands = HC_CLI_TRACE,
+      .commands = HC_CLI_TRACE | HC_CLI_TERRAIN,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_spacing,
       .target   = TARGET(rays.spacing),
@@ -219,7 +219,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "one or two positive distances, such as 30 or 25,30",
       .help     = "World units between samples, where the file does not say or is wrong." },
     { .name     = "elevation",
-      .commands = HC_CLI_TRACE,
+      .commands = HC_CLI_TRACE | HC_CLI_TERRAIN,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_rise,
       .target   = TARGET(rays.elevation),
@@ -227,7 +227,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "LOW:HIGH, the second number above the first",
       .help     = "World z of heights 0 and 1, likewise." },
     { .name     = "surface",
-      .commands = CASTS,
+      .commands = CASTS | HC_CLI_TERRAIN,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_word,
       .target   = TARGET(rays.surface),
@@ -235,12 +235,12 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "Between samples: patches, or a flat top for each (fast, safe, maxmip, qdm, "
                   "reference)." },
     { .name     = "open-sides",
-      .commands = CASTS,
+      .commands = CASTS | HC_CLI_TERRAIN,
       .section  = HC_CLI_SECTION_WORK,
       .target   = TARGET(rays.open_sides),
       .help     = "Rays that come in below the surface do not hit the sides of the field." },
     { .name     = "steps",
-      .commands = CASTS | HC_CLI_RENDER,
+      .commands = CASTS | DRAWS,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_int,
       .target   = TARGET(rays.steps),
@@ -251,7 +251,7 @@ const hc_cli_option hc_cli_options[] = {
       .help = "Steps of published methods (default: 10 for cone-fixed, 32 for linear, relief and "
               "occlusion, 256 for cones)." },
     { .name     = "refinements",
-      .commands = CASTS | HC_CLI_RENDER,
+      .commands = CASTS | DRAWS,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_int,
       .target   = TARGET(rays.refinements),
@@ -315,6 +315,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "WIDTHxHEIGHT, each 1 to 1048576, or one number for a square",
       .help     = "Pixels of the picture (default 960x540)." },
 #include "option_rows_render.inc"
+#include "option_rows_terrain.inc"
     { .name     = "rays",
       .commands = HC_CLI_VERIFY,
       .section  = HC_CLI_SECTION_WORK,
@@ -365,7 +366,7 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "the name of a .png file",
       .help     = "Write the picture, each panel with its scale, instead of drawing it here." },
     { .name     = "heights",
-      .commands = CASTS | HC_CLI_RENDER,
+      .commands = CASTS | DRAWS,
       .section  = HC_CLI_SECTION_WORK,
       .read     = hc_cli_read_text,
       .target   = TARGET(heights),

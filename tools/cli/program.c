@@ -53,6 +53,14 @@ const hc_cli_command hc_cli_commands[] = {
       "itself, so it has true depth, shadows and silhouettes; there is no mesh. Heights are "
       "stretched to the full depth unless --range says otherwise.",
       false },
+    { "render terrain", HC_CLI_TERRAIN, hc_cli_run_terrain, "FIELD", 1, 1,
+      "Draw a height field as a landscape",
+      "FIELD is a height map, or a baked map that holds the heights; it stands in world units. "
+      "Rays "
+      "are cast from any eye in any direction, and from what they hit to the sun; there is no "
+      "mesh. "
+      "'terrain' must come right behind 'render'.",
+      false },
     { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace|steps|render]", 0, 1,
       "Measure the baker, the casters of rays, their steps, or frames of relief",
       "bake: each measurement runs in a process of its own, so that its peak memory is known.",
@@ -77,11 +85,16 @@ static int fail_word(const char *what, const char *word)
     return HC_CLI_USAGE;
 }
 
-static const hc_cli_command *command_named(const char *name)
+/* Of one word, or of the two that stand there: the longer name counts. *words: how many it has. */
+static const hc_cli_command *command_named(const char *name, const char *second, int *words)
 {
-    for (const hc_cli_command *command = hc_cli_commands; command->name != NULL; command++) {
-        if (strcmp(command->name, name) == 0) {
-            return command;
+    char both[64];
+    (void)snprintf(both, sizeof both, "%s %s", name, second != NULL ? second : "");
+    for (*words = 2; *words > 0; --*words) {
+        for (const hc_cli_command *command = hc_cli_commands; command->name != NULL; command++) {
+            if (strcmp(command->name, *words == 2 ? both : name) == 0) {
+                return command;
+            }
         }
     }
     return NULL;
@@ -103,9 +116,10 @@ static int show_version(void)
     return end_of_output();
 }
 
-static int show_help(const char *name)
+static int show_help(const char *name, const char *second)
 {
-    const hc_cli_command *command = name == NULL ? NULL : command_named(name);
+    int                   words   = 0;
+    const hc_cli_command *command = name == NULL ? NULL : command_named(name, second, &words);
     if (command != NULL) {
         hc_cli_help_command(command);
     } else if (name != NULL) {
@@ -136,7 +150,7 @@ static int run(const hc_cli_command *command, int argc, char **argv)
     char       error[HC_LOG_TEXT_SIZE];
     const bool parsed = hc_cli_parse(&cli.settings, command->bit, argc, argv, error, sizeof error);
     if (parsed && cli.settings.help) {
-        return show_help(command->name);
+        return show_help(command->name, NULL);
     }
     if (parsed && cli.settings.version) {
         return show_version();
@@ -158,15 +172,16 @@ int hc_cli_main(int argc, char **argv)
         return show_version();
     }
     if (strcmp(word, "--help") == 0 || strcmp(word, "-h") == 0) {
-        return show_help(NULL);
+        return show_help(NULL, NULL);
     }
     if (strcmp(word, "help") == 0) {
-        return show_help(argc > 2 ? argv[2] : NULL);
+        return show_help(argc > 2 ? argv[2] : NULL, argc > 3 ? argv[3] : NULL);
     }
-    const hc_cli_command *command = command_named(word);
+    int                   words   = 0;
+    const hc_cli_command *command = command_named(word, argc > 2 ? argv[2] : NULL, &words);
     if (command == NULL) {
         return fail_word(word[0] == '-' ? "option" : "command", word);
     }
     hc_cli_catch_signals();
-    return run(command, argc - 1, argv + 1);
+    return run(command, argc - words, argv + words);
 }

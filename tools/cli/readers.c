@@ -156,6 +156,12 @@ bool hc_cli_read_tiles(const hc_cli_option *option, const char *text, hc_cli_set
            && whole_until(text, '\0', 1, most, &tiles[1], &text);
 }
 
+bool hc_cli_read_share(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    double *share = target_of(option, settings);
+    return number_until(text, '\0', share, &text) && *share >= 0.0 && *share <= 1.0;
+}
+
 /* "u16be" and the like: the type, and the byte order behind it. */
 static bool read_sample_type(const char *text, hc_load_options *load)
 {

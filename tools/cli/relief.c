@@ -87,15 +87,6 @@ static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
 
 /* ---- the rest -------------------------------------------------------------------------------- */
 
-static int refinements_of(const hc_cli_settings *settings)
-{
-    switch (settings->render.refine) {
-    case HC_CLI_SECANT: return -1;
-    case HC_CLI_NO_REFINEMENT: return -2;
-    default: return settings->rays.refinements;
-    }
-}
-
 /* Samples of a field may be farther apart along one axis: so is the plane. */
 static float aspect_of(const hc_cli_settings *settings, const hc_field *field)
 {
@@ -115,7 +106,7 @@ static void choose_scene(hc_cli_relief *relief, const hc_cli *cli)
     scene->relief.field             = relief->ground.field;
     scene->relief.trace =
         hc_cli_scene_options(&relief->ground, cli, (hc_trace_method)settings->rays.method);
-    scene->relief.trace.refinements = refinements_of(settings);
+    scene->relief.trace.refinements = hc_cli_refinements(settings);
     scene->relief.body              = render->body;
     scene->relief.edge              = render->edge;
     scene->relief.depth             = render->depth;

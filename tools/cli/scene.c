@@ -279,3 +279,12 @@ hc_trace_options hc_cli_scene_options(const hc_cli_scene *scene, const hc_cli *c
                                .isa         = cli->settings.map.cone.isa,
                                .threads     = cli->settings.threads };
 }
+
+int hc_cli_refinements(const hc_cli_settings *settings)
+{
+    switch (settings->render.refine) {
+    case HC_CLI_SECANT: return -1;
+    case HC_CLI_NO_REFINEMENT: return -2;
+    default: return settings->rays.refinements;
+    }
+}

@@ -32,4 +32,7 @@ int hc_cli_scene_ratios(hc_cli_scene *scene, hc_cli *cli, hc_trace_needs needs);
 hc_trace_options hc_cli_scene_options(const hc_cli_scene *scene, const hc_cli *cli,
                                       hc_trace_method method);
 
+/* Of --refine and --refinements, as hc_trace_options has them. */
+int hc_cli_refinements(const hc_cli_settings *settings);
+
 #endif

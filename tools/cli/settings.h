@@ -4,10 +4,10 @@
 
 #include <heightcast/bake.h>
 #include <heightcast/io.h>
-#include <heightcast/render.h>
+#include <heightcast/terrain.h>
 
 #define HC_CLI_PATHS_MAX 2
-#define HC_CLI_OPTIONS_MAX 96 /* rows of the option table */
+#define HC_CLI_OPTIONS_MAX 128 /* rows of the option table */
 
 typedef enum hc_cli_backend { HC_CLI_CPU = 0, HC_CLI_GL } hc_cli_backend;
 
@@ -56,6 +56,17 @@ typedef struct hc_cli_render {
     const char   *albedo, *depth_out;
 } hc_cli_render;
 
+/* render terrain, beside what it shares with render */
+typedef struct hc_cli_terrain {
+    int         view, ground; /* indices of words */
+    hc_tour     tour;
+    float       exaggeration, above, haze;
+    double      offset[3], moment;
+    bool        blocky;
+    int         frames; /* 0: one picture, at `moment` */
+    const char *path;
+} hc_cli_terrain;
+
 /* All zero: the defaults, as the library's own option structs have them. */
 typedef struct hc_cli_settings {
     const char     *paths[HC_CLI_PATHS_MAX]; /* what is not an option, in order */
@@ -77,6 +88,7 @@ typedef struct hc_cli_settings {
     const char     *csv;
     hc_cli_rays     rays;
     hc_cli_render   render;
+    hc_cli_terrain  terrain;
     bool            json, quiet, verbose, help, version;
     bool            given[HC_CLI_OPTIONS_MAX]; /* which rows of the option table were */
 } hc_cli_settings;

@@ -119,7 +119,27 @@ const char *hc_cli_edge_words(int index)
 
 const char *hc_cli_view_words(int index)
 {
-    return hc_view_name((hc_view)index);
+    return index < HC_VIEW_CROSSINGS ? hc_view_name((hc_view)index) : NULL;
+}
+
+const char *hc_cli_terrain_view_words(int index)
+{
+    static const hc_view views[] = { HC_VIEW_SHADED, HC_VIEW_HEIGHT,    HC_VIEW_NORMAL,
+                                     HC_VIEW_DEPTH,  HC_VIEW_CROSSINGS, HC_VIEW_MISSED };
+    return index < 6 ? hc_view_name(views[index]) : NULL;
+}
+
+/* An image is --albedo's. */
+const char *hc_cli_ground_words(int index)
+{
+    static const hc_ground grounds[] = { HC_GROUND_NATURAL, HC_GROUND_ELEVATION, HC_GROUND_SLOPE,
+                                         HC_GROUND_PLAIN };
+    return index < 4 ? hc_ground_name(grounds[index]) : NULL;
+}
+
+const char *hc_cli_tour_words(int index)
+{
+    return hc_tour_name((hc_tour)index);
 }
 
 const char *hc_cli_refine_words(int index)

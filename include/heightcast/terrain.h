@@ -1,0 +1,121 @@
+/* Terrain: landscapes drawn by rays, from any eye in any direction. Part of heightcast-render.
+ *
+ * A terrain is a height field in world units under a sun and a sky. Every pixel is a ray, followed
+ * by any method of trace.h, whether the eye is outside the field's box, inside it, on the ground
+ * or in a valley looking up; so is the ray to the sun.
+ *
+ *     hc_terrain_scene scene = { .field = field };
+ *     hc_terrain      *terrain;
+ *     if (hc_terrain_create(&terrain, &scene, NULL, &log) == HC_OK) {
+ *         hc_camera camera;
+ *         hc_terrain_tour(&camera, terrain, HC_TOUR_FLY, 0.0);
+ *         hc_terrain_draw(&picture, terrain, &camera, &log);
+ *         hc_terrain_destroy(terrain);
+ *     }
+ *
+ * The field is a block: it has walls, which end a quarter of its height below height 0.
+ * The world: sample (0, 0) stands at `offset`, x goes to the right (east) with the columns, y to
+ * the top row (north), against the rows, z up. Zero is a good default of every member. */
+#ifndef HEIGHTCAST_TERRAIN_H
+#define HEIGHTCAST_TERRAIN_H
+
+#include <heightcast/render.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What the ground's colour comes from.
+ * natural    meadows and woods low, grass and rock high, rock where it is steep, speckled
+ * elevation  a ramp of map colours from low to high
+ * slope      level green, over yellow to red at 45 degrees, violet beyond
+ * image      scene.image, draped over the field
+ * plain      the same grey everywhere */
+typedef enum hc_ground {
+    HC_GROUND_NATURAL = 0,
+    HC_GROUND_ELEVATION,
+    HC_GROUND_SLOPE,
+    HC_GROUND_IMAGE,
+    HC_GROUND_PLAIN
+} hc_ground;
+HC_API const char *hc_ground_name(hc_ground ground); /* as above; NULL beyond the last. Static */
+
+typedef struct hc_terrain_scene {
+    hc_field         field; /* heights are borrowed until the terrain is destroyed; no wrap */
+    hc_trace_options trace; /* method and what it needs, surface, open_sides, steps, refinements;
+                               steps 0 of cone-loop: 512. The placement must be zero, threads do not
+                               count */
+    double           spacing[2]; /* world units between samples along x and y  [>= 0]
+                               0 0: those of field.elevation; where that has none, the longer side is
+                               32 times the height of the terrain */
+    double       low, high;    /* z of heights 0 and 1  [low < high]  0 0: those of field.elevation;
+                               where that has none, 0 and 1 */
+    double       exaggeration; /* of z  [> 0, <= 1000]  0: 1 */
+    double       offset[3]; /* of the whole                                                       */
+    hc_ground    ground;
+    const float *image; /* ground image: image_width * image_height * 3, row-major, linear light,
+                               one texel's corner at u = v = 0; borrowed like the heights          */
+    int          image_width, image_height;
+    bool         blocky; /* colours are those of the nearest sample or texel, normals those of the
+                               patch: nothing is smoothed */
+    double       sun[3]; /* direction to it, any length. All zero: -0.75 0.5 0.36             */
+    bool         no_shadows;
+    float        haze; /* distance over which 1 / e of the ground's light comes through
+                               [> 0]  0: 2.2 times the longer side; INFINITY: clear air          */
+} hc_terrain_scene;
+
+typedef struct hc_terrain hc_terrain;
+
+/* Make a scene ready to be drawn. Destroy with hc_terrain_destroy, which accepts NULL.
+ *
+ * options  view: shaded, height, normal, depth, crossings or missed; top does not count. NULL or
+ *          zero: shaded, by the CPU
+ *
+ * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range; HC_ERROR_UNSUPPORTED for
+ * HC_BACKEND_GL. */
+HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
+                                   const hc_render_options *options, hc_log *log);
+HC_API void      hc_terrain_destroy(hc_terrain *terrain);
+
+/* Draw what `camera` sees. Zero eye and target: hc_terrain_tour's fly at 0; fov 0: 60.
+ *
+ * The same bytes on every machine and for every number of threads. An eye under the ground sees
+ * only that. picture->figures: `entered` counts rays that come to the field's box, `within` those of
+ * them that moved at most 16, 35 and 85 times from node to node (steps, with methods that do not
+ * tell).
+ *
+ * Memory: 92 bytes per pixel, a megabyte per thread. Errors: HC_ERROR_ARGUMENT for
+ * numbers out of range and an eye and a target in the same place; HC_ERROR_MEMORY;
+ * HC_ERROR_CANCELLED. */
+HC_API hc_result hc_terrain_draw(hc_picture *picture, const hc_terrain *terrain,
+                                 const hc_camera *camera, hc_log *log);
+
+/* z of the surface at (x, y); beyond the field's sides that of the nearest place on them. */
+HC_API double hc_terrain_ground(const hc_terrain *terrain, double x, double y);
+
+/* The field's place: spacings, scale and offset as they were resolved. */
+HC_API hc_placement hc_terrain_placement(const hc_terrain *terrain);
+
+/* ---- cameras --------------------------------------------------------------------------------- */
+
+/* Ways through a terrain, each closed upon itself.
+ * fly    a loop in the air, ahead and a little down
+ * walk   a loop on the ground, following it, ahead
+ * up     in the deepest valley around the middle, turning, looking up
+ * orbit  round the whole terrain, looking at its middle */
+typedef enum hc_tour { HC_TOUR_FLY = 0, HC_TOUR_WALK, HC_TOUR_UP, HC_TOUR_ORBIT } hc_tour;
+HC_API const char *hc_tour_name(hc_tour tour); /* as above; NULL beyond the last. Static */
+
+/* The camera at `moment` of a tour, in rounds. */
+HC_API void hc_terrain_tour(hc_camera *camera, const hc_terrain *terrain, hc_tour tour,
+                            double moment);
+
+/* The camera on a smooth way through `count` [>= 1] keys, from the first at moment 0 to the last at
+ * 1: eye, target and fov by Catmull-Rom splines, the rest as in the first. */
+HC_API void hc_camera_between(hc_camera *camera, const hc_camera *keys, int count, double moment);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

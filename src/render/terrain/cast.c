@@ -1,0 +1,169 @@
+/* Rows of rays through the tracer, and what they see. Rays go to it many at a time, as the fast
+ * caster follows them. */
+#include "terrain.h"
+
+#include "../stage.h"
+#include "../vec.h"
+
+#include "base/fail.h"
+#include "base/parallel.h"
+
+#include <stdlib.h>
+
+enum { PIECE = 4096 }; /* rays at a time */
+
+/* Of one thread. */
+typedef struct scratch {
+    hc_ray  *rays;
+    hc_hit  *hits, *exact;
+    hc_ray  *to_sun;
+    uint8_t *dark;
+} scratch;
+
+/* Rays of a row of pixels, from `first`. */
+typedef struct piece {
+    int row, first, count;
+} piece;
+
+typedef struct job {
+    hc_pixel         *pixels;
+    const hc_terrain *terrain;
+    const hc_eye     *eye;
+    double            footprint; /* of a pixel at distance 1 */
+    scratch          *scratches;
+} job;
+
+/* ---- rays ---------------------------------------------------------------------------------- */
+
+static void aim(hc_ray *rays, const job *j, piece p)
+{
+    for (int i = 0; i < p.count; i++) {
+        const int column = (p.first + i) / j->eye->samples;
+        double    place[2], origin[3], direction[3];
+        hc_eye_sample_place(j->eye, place, (p.first + i) % j->eye->samples);
+        hc_eye_ray(j->eye, origin, direction, column + place[0], p.row + place[1]);
+        rays[i].tmin = 0.0F;
+        rays[i].tmax = INFINITY;
+        for (int k = 0; k < 3; k++) {
+            rays[i].origin[k]    = (float)origin[k];
+            rays[i].direction[k] = (float)direction[k];
+        }
+    }
+}
+
+static void cast_to_sun(const scratch *s, const job *j, int count)
+{
+    for (int i = 0; i < count; i++) {
+        const hc_glance glance = { s->rays[i], s->hits[i] };
+        s->to_sun[i]           = hc_terrain_sun_ray(j->terrain, &glance);
+    }
+    hc_trace_any_many(j->terrain->tracer, s->dark, s->to_sun, (size_t)count);
+}
+
+/* ---- pixels -------------------------------------------------------------------------------- */
+
+static void add(const scratch *s, const job *j, piece p)
+{
+    const hc_terrain *terrain = j->terrain;
+    const float       slack   = terrain->exact != NULL ? (float)terrain->slack : -1.0F;
+    hc_pixel         *pixels  = &j->pixels[(size_t)p.row * (size_t)j->eye->width];
+    for (int i = 0; i < p.count; i++) {
+        const hc_glance glance = { s->rays[i], s->hits[i] };
+        double          direction[3];
+        hc_sample       sample;
+        for (int k = 0; k < 3; k++) {
+            direction[k] = (double)glance.ray.direction[k];
+        }
+        hc_terrain_see(&sample, terrain, &glance, j->footprint, s->dark[i] == 0);
+        if (terrain->exact != NULL) {
+            sample.exact = s->exact[i].t;
+        }
+        hc_pixel_add(&pixels[(p.first + i) / j->eye->samples], &sample,
+                     hc_dot(direction, j->eye->forward), slack);
+    }
+}
+
+/* The field has no end below, its picture does. */
+static void cut_below(hc_hit *hits, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if ((hits[i].flags & HC_HIT_SIDE) != 0 && (double)hits[i].height < -HC_TERRAIN_BASE) {
+            hits[i].t = INFINITY;
+        }
+    }
+}
+
+static void draw_piece(const scratch *s, const job *j, piece p)
+{
+    const hc_terrain *terrain = j->terrain;
+    const size_t      count   = (size_t)p.count;
+    aim(s->rays, j, p);
+    hc_trace_nearest_many(terrain->tracer, s->hits, s->rays, count);
+    cut_below(s->hits, p.count);
+    if (terrain->exact != NULL) {
+        hc_trace_nearest_many(terrain->exact, s->exact, s->rays, count);
+        cut_below(s->exact, p.count);
+    }
+    if (!terrain->scene.no_shadows) {
+        cast_to_sun(s, j, p.count);
+    }
+    add(s, j, p);
+}
+
+static void draw_row(void *context, int row, int worker)
+{
+    const job *j     = context;
+    const int  count = j->eye->width * j->eye->samples;
+    for (int first = 0; first < count; first += PIECE) {
+        const int   rest = count - first;
+        const piece p    = { row, first, rest < PIECE ? rest : PIECE };
+        draw_piece(&j->scratches[worker], j, p);
+    }
+}
+
+/* ---- memory -------------------------------------------------------------------------------- */
+
+static bool take(scratch *s, bool exact)
+{
+    s->rays   = malloc(PIECE * sizeof *s->rays);
+    s->hits   = malloc(PIECE * sizeof *s->hits);
+    s->exact  = exact ? malloc(PIECE * sizeof *s->exact) : NULL;
+    s->to_sun = malloc(PIECE * sizeof *s->to_sun);
+    s->dark   = calloc(PIECE, sizeof *s->dark);
+    return s->rays != NULL && s->hits != NULL && (s->exact != NULL || !exact) && s->to_sun != NULL
+           && s->dark != NULL;
+}
+
+static void release(scratch *s)
+{
+    free(s->rays);
+    free(s->hits);
+    free(s->exact);
+    free(s->to_sun);
+    free(s->dark);
+}
+
+hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_eye *eye,
+                          hc_log *log)
+{
+    const int threads = hc_threads_resolve(terrain->options.threads);
+    scratch  *all     = calloc((size_t)threads, sizeof *all);
+    job       j       = { .pixels  = pixels,
+                          .terrain = terrain,
+                          .eye     = eye,
+                          .footprint =
+                  eye->parallel ? 0.0 : 2.0 * sqrt(hc_dot(eye->right, eye->right)) / eye->width,
+                          .scratches = all };
+    bool      enough  = all != NULL;
+    for (int i = 0; enough && i < threads; i++) {
+        enough = take(&all[i], terrain->exact != NULL);
+    }
+    const hc_result result =
+        enough ? hc_parallel_for(eye->height, threads, draw_row, &j, terrain->options.progress, log)
+               : hc_fail(log, HC_ERROR_MEMORY, "no memory for the rays of %d threads", threads);
+    for (int i = 0; all != NULL && i < threads; i++) {
+        release(&all[i]);
+    }
+    free(all);
+    return result;
+}

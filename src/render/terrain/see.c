@@ -1,0 +1,133 @@
+/* What a ray of a terrain sees: the ground in its light behind the air, or the sky. */
+#include "terrain.h"
+
+#include "../vec.h"
+
+#include <string.h>
+
+/* Light of the sun and of the sky on level ground, and of the ground itself on what faces it. */
+static const double SUNLIGHT[3]   = { 2.75, 2.40, 1.90 };
+static const double SKYLIGHT[3]   = { 0.26, 0.34, 0.50 };
+static const double BOUNCED[3]    = { 0.14, 0.13, 0.10 };
+static const double CUT_GROUND[3] = { 0.16, 0.12, 0.085 }; /* sides of the field, and inside it */
+
+static bool is_cut(const hc_terrain *terrain, const hc_hit *hit)
+{
+    const bool faces = terrain->scene.trace.surface == HC_SURFACE_STEPS
+                       || terrain->scene.trace.method == HC_TRACE_QDM;
+    return (hit->flags & HC_HIT_INSIDE) != 0 || ((hit->flags & HC_HIT_SIDE) != 0 && !faces);
+}
+
+static void normal_at(double normal[3], const hc_terrain *terrain, const hc_glance *glance)
+{
+    const bool flat = terrain->scene.blocky || is_cut(terrain, &glance->hit)
+                      || terrain->scene.trace.surface == HC_SURFACE_STEPS
+                      || terrain->scene.trace.method == HC_TRACE_QDM;
+    float out[3];
+    hc_trace_normals(terrain->tracer, flat ? out : NULL, flat ? NULL : out, &glance->hit);
+    for (int k = 0; k < 3; k++) {
+        normal[k] = (double)out[k];
+    }
+}
+
+/* ---- the sun ------------------------------------------------------------------------------- */
+
+/* How far it is from a point to where the field's box ends, towards the sun. */
+static double way_out(const hc_terrain *terrain, const double point[3])
+{
+    double away = INFINITY;
+    for (int k = 0; k < 3; k++) {
+        const double along = terrain->sun[k];
+        if (along > 0.0) {
+            away = fmin(away, (terrain->high[k] - point[k]) / along);
+        } else if (along < 0.0 && k < 2) { /* below there is no end */
+            away = fmin(away, (terrain->low[k] - point[k]) / along);
+        }
+    }
+    return fmax(away, 0.0);
+}
+
+/* It comes from there, since published methods cannot start on the surface. */
+hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance)
+{
+    hc_ray ray = { .tmin = 1.0F, .direction = { 0.0F, 0.0F, 1.0F } };
+    double point[3], direction[3], origin[3], normal[3];
+    if (!(glance->hit.t < INFINITY)) {
+        return ray;
+    }
+    normal_at(normal, terrain, glance);
+    for (int k = 0; k < 3; k++) {
+        point[k]     = (double)glance->ray.origin[k];
+        direction[k] = (double)glance->ray.direction[k];
+    }
+    hc_add_scaled(point, point, (double)glance->hit.t, direction);
+    if (hc_dot(normal, terrain->sun) <= 0.0) {
+        return ray; /* it faces away */
+    }
+    const double away = way_out(terrain, point) + terrain->shadow_slip;
+    hc_add_scaled(origin, point, away, terrain->sun);
+    ray.tmin = 0.0F;
+    ray.tmax = (float)(away - terrain->shadow_slip);
+    for (int k = 0; k < 3; k++) {
+        ray.origin[k]    = (float)origin[k];
+        ray.direction[k] = (float)-terrain->sun[k];
+    }
+    return ray;
+}
+
+/* ---- light --------------------------------------------------------------------------------- */
+
+static void light(double rgb[3], const hc_terrain *terrain, const double normal[3], bool lit)
+{
+    const double facing = lit ? fmax(hc_dot(normal, terrain->sun), 0.0) : 0.0;
+    const double open   = 0.5 + 0.5 * normal[2];
+    for (int k = 0; k < 3; k++) {
+        rgb[k] *= SUNLIGHT[k] * facing + SKYLIGHT[k] * open + BOUNCED[k] * (1.0 - open);
+    }
+}
+
+static void see_ground(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
+                       double footprint, bool lit)
+{
+    const double distance = (double)glance->hit.t;
+    double       normal[3], rgb[3];
+    normal_at(normal, terrain, glance);
+    for (int k = 0; k < 3; k++) {
+        sample->normal[k] = (float)normal[k];
+    }
+    if (is_cut(terrain, &glance->hit)) {
+        memcpy(rgb, CUT_GROUND, sizeof rgb);
+    } else {
+        hc_ground_colour(rgb, terrain, &glance->hit, normal, footprint * distance);
+    }
+    light(rgb, terrain, normal, lit);
+    hc_haze(rgb, terrain, &glance->ray, distance);
+    for (int k = 0; k < 3; k++) {
+        sample->rgb[k] = (float)rgb[k];
+    }
+}
+
+void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
+                    double footprint, bool lit)
+{
+    const hc_hit *hit = &glance->hit;
+    double        direction[3], sky[3];
+    *sample = (hc_sample){ .distance    = hit->t,
+                           .exact       = INFINITY,
+                           .height      = hit->height,
+                           .steps       = (float)hit->steps,
+                           .crossings   = (float)(hit->crossings > 0 ? hit->crossings : hit->steps),
+                           .entered     = hit->t < INFINITY || hit->steps > 0,
+                           .unconverged = (hit->flags & HC_HIT_UNCONVERGED) != 0 };
+    if (hit->t < INFINITY) {
+        see_ground(sample, terrain, glance, footprint, lit);
+        return;
+    }
+    for (int k = 0; k < 3; k++) {
+        direction[k] = (double)glance->ray.direction[k];
+    }
+    hc_sky_colour(sky, terrain, direction);
+    for (int k = 0; k < 3; k++) {
+        sample->rgb[k] = (float)sky[k];
+    }
+}

@@ -1,0 +1,59 @@
+/* A terrain made ready: what its parts know of each other. */
+#ifndef HC_RENDER_TERRAIN_H
+#define HC_RENDER_TERRAIN_H
+
+#include <heightcast/terrain.h>
+
+#include "../eye.h"
+#include "../sums.h"
+
+struct hc_terrain {
+    hc_terrain_scene  scene; /* defaults resolved */
+    hc_render_options options;
+    hc_placement      placement;
+    double            low[3], high[3]; /* corners of the box                             */
+    double            side;            /* the longer one, in the world                   */
+    hc_tracer        *tracer, *exact;  /* exact: for views that compare, else NULL       */
+    double            sun[3];          /* unit                                           */
+    double            shadow_slip; /* a shadow's cause lies at least so far before the lit point */
+    double            slack;       /* hits farther from the exact ones are wrong         */
+};
+
+/* Check a scene and resolve it: all members but the tracers. */
+hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
+                      const hc_render_options *options, hc_log *log);
+
+/* A ray and what it came to. */
+typedef struct hc_glance {
+    hc_ray ray; /* direction of unit length */
+    hc_hit hit;
+} hc_glance;
+
+/* What a ray sees; footprint: width of its pixel at distance 1. `lit`: it comes to the sun. */
+void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
+                    double footprint, bool lit);
+
+/* The ray from the sun to a hit, which ends before it; one without length for a miss. */
+hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance);
+
+/* Colour of the ground, linear. normal [in, out]: of the world, unit; natural ground is rough;
+ * footprint: width of the pixel there. */
+void hc_ground_colour(double rgb[3], const hc_terrain *terrain, const hc_hit *hit, double normal[3],
+                      double footprint);
+
+/* Colour of the sky, and of the air between the eye and what it sees. direction: unit. */
+void hc_sky_colour(double rgb[3], const hc_terrain *terrain, const double direction[3]);
+void hc_haze(double rgb[3], const hc_terrain *terrain, const hc_ray *ray, double distance);
+
+/* The terrain is a block: walls end so far below height 0, in heights. */
+#define HC_TERRAIN_BASE 0.25
+
+/* Fill zeroed pixels on all threads. */
+hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_eye *eye,
+                          hc_log *log);
+
+/* Colours of the terrain's view, and depths. */
+void hc_terrain_finish(hc_picture *picture, const hc_terrain *terrain, const hc_pixel *pixels,
+                       int samples);
+
+#endif

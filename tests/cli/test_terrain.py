@@ -1,0 +1,214 @@
+"""heightcast render terrain: pictures of landscapes, frames, paths, what is refused."""
+
+import os
+import signal
+import struct
+import subprocess
+import time
+
+from picture import read_picture
+from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, PROGRAM, USAGE, Case, main
+
+SMALL = ["--size", "48x27", "--samples", "1"]
+METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick"]
+
+
+class Terrain(Case):
+    def render(self, *arguments, field=None, out="a.png", **options):
+        return self.json("render", "terrain", field or self.hills(), "--out", out, *SMALL,
+                         "--overwrite", *arguments, **options)
+
+    def picture(self, *arguments, **options):
+        self.render(*arguments, **options)
+        return read_picture(self.path("a.png").read_bytes())
+
+    def refuse(self, *arguments, code=USAGE, says=""):
+        self.hills()
+        self.refused("render", "terrain", "hills.pgm", "-q", *arguments, code=code, says=says)
+
+    def test_defaults_draw_a_picture(self):
+        figures = self.json("render", "terrain", ELEVATIONS, "--out", "a.png", "--size", "96x54")
+        width, height, rows = read_picture(self.path("a.png").read_bytes())
+        self.assertEqual((width, height), (96, 54))
+        self.assertEqual((figures["method"], figures["view"], figures["backend"]),
+                         ("fast", "shaded", "cpu"))
+        self.assertEqual((figures["low"], figures["high"]), (236, 1076))
+        self.assertEqual(figures["rays"], 4 * 96 * 54)
+        self.assertGreater(figures["hits"], 0.3 * figures["rays"])
+        self.assertLess(figures["hits"], 0.95 * figures["rays"])
+        self.assertIn("--spacing", figures["warnings"][0])
+        sky, ground = rows[2][3 * 48 : 3 * 48 + 3], rows[50][3 * 48 : 3 * 48 + 3]
+        self.assertGreater(sky[2], sky[0])
+        self.assertGreater(ground[1], ground[2])
+
+    def test_options_may_stand_anywhere_behind_terrain(self):
+        self.hills()
+        self.json("render", "terrain", *SMALL, "--out", "b.png", "hills.pgm")
+        self.assertIn("b.png", self.files())
+        self.refused("render", "--out", "c.png", "terrain", "hills.pgm", code=USAGE,
+                     says="right behind render")
+
+    def test_methods(self):
+        for method in METHODS:
+            with self.subTest(method=method):
+                figures = self.render("--method", method, "--view", "missed", "--steps", "256")
+                self.assertEqual(figures["method"], method)
+                self.assertGreater(figures["hits"], 100)
+                if method in ["fast", "safe", "maxmip"]:
+                    self.assertEqual((figures["lost"], figures["made_up"]), (0, 0))
+
+    def test_maps_bring_their_ratios(self):
+        self.hills()
+        self.run_program("bake", "hills.pgm", "quad.exr", "--cones", "quad", "--range", "data")
+        figures = self.render("--method", "safe", "--heights", "hills.pgm", field="quad.exr")
+        self.assertNotIn("bake", figures["seconds"])
+        self.assertGreater(figures["hits"], 100)
+
+    def test_views_differ(self):
+        seen = {}
+        for view in ["shaded", "height", "normal", "depth", "crossings", "missed"]:
+            seen[view] = self.picture("--view", view)
+        self.assertEqual(len({str(picture) for picture in seen.values()}), len(seen))
+
+    def test_shares_of_crossings(self):
+        figures = self.render("--view", "crossings", "--method", "maxmip", field=ELEVATIONS)
+        shares = [figures[f"share_up_to_{few}"] for few in [16, 35, 85]]
+        self.assertEqual(shares, sorted(shares))
+        self.assertGreater(shares[0], 0.5)
+        self.assertLessEqual(shares[2], 1)
+
+    def test_scene_options_change_the_picture(self):
+        plain = self.picture("--spacing", "20")
+        for option in [["--exaggeration", "2"], ["--elevation", "0:90"], ["--spacing", "20,30"],
+                       ["--colours", "elevation"], ["--colours", "slope"], ["--colours", "plain"],
+                       ["--blocky"], ["--light", "1,0,0.2"], ["--shadows", "off"],
+                       ["--haze", "50"], ["--tour", "walk"], ["--tour", "up"], ["--tour", "orbit"],
+                       ["--moment", "0.3"], ["--above", "400"], ["--fov", "40"],
+                       ["--surface", "steps"], ["--at", "0,0,0"], ["--eye", "5,-400,300"],
+                       ["--samples", "3"], ["--invert"], ["--range", "0:500"]]:
+            with self.subTest(option=option):
+                self.assertNotEqual(plain, self.picture("--spacing", "20", *option))
+        self.assertNotEqual(self.picture("--tour", "orbit", "--at", "0,0,999", "--open-sides"),
+                            self.picture("--tour", "orbit", "--at", "0,0,999"))
+
+    def test_offset_moves_the_world(self):
+        here = self.picture("--spacing", "20", "--eye", "5,-600,300", "--at", "200,-100,0")
+        there = self.picture("--spacing", "20", "--offset", "1000,512,256", "--eye", "1005,-88,556",
+                             "--at", "1200,412,256")
+        self.assertEqual(here, there)
+
+    def test_same_bytes_for_every_number_of_threads(self):
+        self.assertEqual(self.picture("-j", "1"), self.picture("-j", "3"))
+
+    def test_an_image_on_the_ground(self):
+        self.run_program("gen", "cobbles", "grey.png", "--size", "32x32", "--bits", "8")
+        self.assertNotEqual(self.picture("--albedo", "grey.png"), self.picture())
+
+    def test_depths(self):
+        self.render("--depth-out", "d.npy", "--tour", "walk")
+        (shape, values) = self.read_npy("d.npy")
+        self.assertEqual(shape, (27, 48))
+        self.assertEqual(values[24], float("inf"))
+        self.assertLess(min(values), 1e4)
+        self.assertGreater(min(values), 0)
+
+    def test_exr(self):
+        self.render(out="a.exr")
+        self.assertEqual(self.path("a.exr").read_bytes()[:4], struct.pack("<I", 20000630))
+
+    def test_frames_are_numbered(self):
+        figures = self.render("--frames", "3", "--depth-out", "d.pfm", out="fly.png")
+        self.assertEqual(figures["frames"], 3)
+        self.assertEqual(figures["rays"], 3 * 48 * 27)
+        names = [f"fly_000{i}.png" for i in range(3)]
+        self.assertEqual([n for n in self.files() if n.startswith("fly")], names)
+        self.assertIn("d_0002.pfm", self.files())
+        self.assertNotEqual(*[self.path(n).read_bytes() for n in names[:2]])
+        self.picture("--moment", str(1 / 3))
+        self.assertEqual(self.path("a.png").read_bytes(), self.path(names[1]).read_bytes())
+
+    def test_existing_frames_are_refused_before_work_begins(self):
+        self.path("fly_0002.png").write_text("mine")
+        self.refuse("--frames", "3", "--out", "fly.png", code=INPUT_OUTPUT,
+                    says=["fly_0002.png", "--overwrite"])
+        self.assertNotIn("fly_0000.png", self.files())
+
+    def test_paths(self):
+        self.path("way.txt").write_text("# eye, target, angle\n\n50 -300 400  200 -100 0\n"
+                                        "80,-300,420, 200,-100,0, 40 # closer\n")
+        self.render("--spacing", "20", "--path", "way.txt", "--frames", "2", out="way.png")
+        self.picture("--spacing", "20", "--eye", "50,-300,400", "--at", "200,-100,0")
+        self.assertEqual(self.path("a.png").read_bytes(), self.path("way_0000.png").read_bytes())
+        self.picture("--spacing", "20", "--eye", "80,-300,420", "--at", "200,-100,0", "--fov", "40")
+        self.assertEqual(self.path("a.png").read_bytes(), self.path("way_0001.png").read_bytes())
+
+    def test_bad_paths(self):
+        for text, says in [("1 2 3 4 5 6\n1 2 3 nan 5 6\n", "line 2"), ("1 2 3 4 5\n", "line 1"),
+                           ("1 2 3 4 5 6 7 8\n", "line 1"), ("1 2 3 1 2 3\n", "must differ"),
+                           ("1 2 3 4 5 6 171\n", "170"), ("# nothing\n", "no camera"),
+                           ("1 2 3 4 5 inf\n", "line 1"), ("one\n", "line 1"),
+                           ("1 2 3 4 5 6" + 600 * " " + "\n", "line 1")]:
+            with self.subTest(text=text[:30]):
+                self.path("way.txt").write_text(text)
+                self.refuse("--out", "a.png", "--path", "way.txt", code=BAD_FILE,
+                            says=["way.txt", says])
+        self.refuse("--out", "a.png", "--path", "none.txt", code=INPUT_OUTPUT, says="none.txt")
+        self.assertNotIn("a.png", self.files())
+
+    def test_an_eye_under_the_ground_is_told(self):
+        figures = self.render("--spacing", "20", "--eye", "200,-200,-50", "--at", "300,-200,-50")
+        self.assertIn("under the ground", figures["warnings"][0])
+
+    def test_holes_are_as_in_other_commands(self):
+        self.run_program("gen", "fbm", "a.npy", "--size", "16x16")
+        self.patch_npy("a.npy", 40, float("nan"))
+        self.refused("render", "terrain", "a.npy", "--out", "a.png", code=BAD_FILE, says="no height")
+        self.render("--holes", "fill", field="a.npy")
+
+    def test_what_makes_no_sense(self):
+        for arguments, says in [
+            ([], "needs --out"),
+            (["--out", "a.jpg"], ".png, .exr"),
+            (["--out", "a.png", "--depth-out", "d.png"], ".exr, .pfm, .npy"),
+            (["--out", "a.png", "--eye", "1,2,3", "--tour", "walk"], ["--eye", "--tour"]),
+            (["--out", "a.png", "--eye", "1,2,3", "--path", "x"], ["--eye", "--path"]),
+            (["--out", "a.png", "--frames", "2", "--moment", "0.5"], ["--frames", "--moment"]),
+            (["--out", "a.png", "--moment", "1.5"], "from 0 to 1"),
+            (["--out", "a.png", "--frames", "0"], "1 to 9999"),
+            (["--out", "a.png", "--view", "steps"], "crossings"),
+            (["--out", "a.png", "--tour", "flay"], "did you mean 'fly'?"),
+            (["--out", "a.png", "--method", "maxmap"], "did you mean 'maxmip'?"),
+            (["--out", "a.png", "--cones", "l2"], "l1 or quad"),
+            (["--out", "a.png", "--colours", "plain", "--albedo", "x.png"], "--albedo"),
+            (["--out", "a.png", "--size", "70000x1"], "65536"),
+            (["--out", "a.png", "--wrap", "u"], "--wrap"),
+            (["--out", "a.png", "--eye", "1,2,nan"], "three numbers"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.refuse(*arguments, says=says)
+        self.refuse("--out", "a.png", "--spacing", "20", "--eye", "1,2,3", "--at", "1,2,3",
+                    code=USAGE, says="looks nowhere")
+
+    def test_existing_output(self):
+        self.path("a.png").write_text("mine")
+        self.refuse("--out", "a.png", code=INPUT_OUTPUT, says="--overwrite")
+        self.assertEqual(self.path("a.png").read_text(), "mine")
+
+    def test_stopping_leaves_whole_frames(self):
+        running = subprocess.Popen([PROGRAM, "render", "terrain", ELEVATIONS, "--out", "fly.png",
+                                    "--size", "300x200", "--frames", "2000"], cwd=self.folder,
+                                   stderr=subprocess.PIPE)
+        self.wait_until_it_catches(running, signal.SIGINT)
+        while not self.path("fly_0001.png").exists():
+            self.assertIsNone(running.poll())
+            time.sleep(0.01)
+        os.kill(running.pid, signal.SIGINT)
+        running.communicate(timeout=60)
+        self.assertEqual(running.returncode, 128 + signal.SIGINT)
+        for name in self.files():
+            self.assertEqual(read_picture(self.path(name).read_bytes())[:2], (300, 200))
+
+
+if __name__ == "__main__":
+    main()

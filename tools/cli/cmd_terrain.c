@@ -1,0 +1,290 @@
+/* heightcast render terrain: a field as a landscape, into a picture or many. */
+#include "commands.h"
+#include "drawing.h"
+#include "figures.h"
+#include "interrupt.h"
+#include "landscape.h"
+#include "options.h"
+#include "output.h"
+#include "route.h"
+#include "words.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { WIDTH = 1280, HEIGHT = 720, SIDE_MAX = 65536, NAME_MAX = 4096 };
+
+/* ---- choices that make no sense ---- */
+
+static int check_size(hc_cli *cli)
+{
+    const hc_cli_size size = cli->settings.size;
+    if (size.width > SIDE_MAX || size.height > SIDE_MAX) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--size %dx%d: sides are at most %d", size.width,
+                           size.height, SIDE_MAX);
+    }
+    if ((uint64_t)size.width * (uint64_t)size.height > HC_CLI_PIXELS_MAX) {
+        return hc_cli_fail(cli, HC_CLI_MEMORY, "--size %dx%d: at most %llu pixels are drawn",
+                           size.width, size.height, (unsigned long long)HC_CLI_PIXELS_MAX);
+    }
+    return HC_CLI_DONE;
+}
+
+/* Of two options that say the same thing in two ways, at most one. */
+static int check_pair(hc_cli *cli, const char *a, const char *b)
+{
+    return hc_cli_given(&cli->settings, a) && hc_cli_given(&cli->settings, b)
+               ? hc_cli_fail(cli, HC_CLI_USAGE, "--%s and --%s exclude each other", a, b)
+               : HC_CLI_DONE;
+}
+
+static int check_meaning(hc_cli *cli)
+{
+    static const char *const pairs[][2] = { { "eye", "tour" },      { "eye", "path" },
+                                            { "eye", "frames" },    { "eye", "moment" },
+                                            { "tour", "path" },     { "frames", "moment" },
+                                            { "colours", "albedo" } };
+    const hc_cli_settings   *settings   = &cli->settings;
+    const hc_cones           cones      = settings->map.cone.cones;
+    int                      code       = check_size(cli);
+    for (size_t i = 0; code == HC_CLI_DONE && i < sizeof pairs / sizeof *pairs; i++) {
+        code = check_pair(cli, pairs[i][0], pairs[i][1]);
+    }
+    if (code != HC_CLI_DONE) {
+        return code;
+    }
+    if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",
+                           hc_cli_refine_words((int)settings->render.refine));
+    }
+    if (hc_cli_given(settings, "cones") && cones != HC_CONES_L1 && cones != HC_CONES_QUAD) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
+                           hc_cones_name(cones));
+    }
+    return HC_CLI_DONE;
+}
+
+static int check_output(hc_cli *cli, const char *option, const char *path, const char *endings)
+{
+    const int frames = cli->settings.terrain.frames;
+    int       code   = HC_CLI_DONE;
+    for (int i = 0; code == HC_CLI_DONE && (i == 0 || i < frames); i++) {
+        char name[NAME_MAX];
+        if (!hc_cli_frame_name(name, sizeof name, cli, path, i)) {
+            return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s: the name is too long", path);
+        }
+        code = hc_cli_check_ending(cli, option, name, endings);
+    }
+    return code;
+}
+
+static int check_outputs(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    if (settings->out == NULL) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --out FILE.png");
+    }
+    int code = check_output(cli, "out", settings->out, ".png, .exr");
+    if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
+        code = check_output(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
+    }
+    return code;
+}
+
+/* ---- figures ---- */
+
+/* Of one picture, or summed over many. */
+typedef struct totals {
+    int               frames;
+    hc_render_figures sum;
+} totals;
+
+static void add_figures(totals *t, const hc_render_figures *f)
+{
+    t->frames++;
+    t->sum.rays += f->rays;
+    t->sum.hits += f->hits;
+    t->sum.entered += f->entered;
+    t->sum.unconverged += f->unconverged;
+    t->sum.lost += f->lost;
+    t->sum.made_up += f->made_up;
+    t->sum.mean_steps += f->mean_steps * (double)f->entered;
+    t->sum.mean_crossings += f->mean_crossings * (double)f->entered;
+    t->sum.seconds += f->seconds;
+    for (int i = 0; i < 3; i++) {
+        t->sum.within[i] += f->within[i] * (double)f->entered;
+    }
+}
+
+static void show_rays(hc_cli *cli, const hc_render_figures *f, hc_view view)
+{
+    const double entered = f->entered > 0 ? (double)f->entered : 1.0;
+    hc_cli_number(cli, "rays", (double)f->rays, NULL);
+    hc_cli_number(cli, "hits", (double)f->hits, NULL);
+    hc_cli_number(cli, "unconverged", (double)f->unconverged, NULL);
+    hc_cli_number(cli, "mean_steps", f->mean_steps / entered, NULL);
+    hc_cli_number(cli, "mean_crossings", f->mean_crossings / entered, NULL);
+    hc_cli_number(cli, "share_up_to_16", f->within[0] / entered, NULL);
+    hc_cli_number(cli, "share_up_to_35", f->within[1] / entered, NULL);
+    hc_cli_number(cli, "share_up_to_85", f->within[2] / entered, NULL);
+    if (view == HC_VIEW_MISSED) {
+        hc_cli_number(cli, "lost", (double)f->lost, NULL);
+        hc_cli_number(cli, "made_up", (double)f->made_up, NULL);
+    }
+    hc_cli_number(cli, "seconds_drawing", f->seconds, NULL);
+}
+
+static void show(hc_cli *cli, const hc_terrain *terrain, const hc_picture *picture, hc_view view,
+                 const totals *t)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const hc_placement     place    = hc_terrain_placement(terrain);
+    hc_cli_text(cli, "input", settings->paths[0]);
+    hc_cli_text(cli, "output", settings->out);
+    if (settings->render.depth_out != NULL) {
+        hc_cli_text(cli, "depth_output", settings->render.depth_out);
+    }
+    hc_cli_show_size(cli, picture->width, picture->height);
+    if (settings->terrain.frames > 0) {
+        hc_cli_number(cli, "frames", t->frames, NULL);
+    }
+    hc_cli_number(cli, "spacing_x", place.spacing_x, NULL);
+    hc_cli_number(cli, "spacing_y", -place.spacing_y, NULL);
+    hc_cli_number(cli, "low", place.offset[2], NULL);
+    hc_cli_number(cli, "high", place.offset[2] + place.scale_z, NULL);
+    hc_cli_text(cli, "method", hc_cli_tracer_words(settings->rays.method));
+    hc_cli_text(cli, "view", hc_view_name(view));
+    hc_cli_text(cli, "backend", hc_cli_backend_words((int)settings->backend));
+    show_rays(cli, &t->sum, view);
+}
+
+/* ---- the work ---- */
+
+static hc_view view_of(const hc_cli_settings *settings)
+{
+    int view = 0;
+    while (strcmp(hc_view_name((hc_view)view), hc_cli_terrain_view_words(settings->terrain.view))
+           != 0) {
+        view++;
+    }
+    return (hc_view)view;
+}
+
+static void no_legend(hc_cli_canvas *canvas, const hc_cli *cli, const hc_picture *picture)
+{
+    (void)canvas;
+    (void)cli;
+    (void)picture;
+}
+
+static hc_result save_frame(hc_cli *cli, const hc_picture *picture, int frame)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const char            *depths   = settings->render.depth_out;
+    char                   out[NAME_MAX], depth_out[NAME_MAX];
+    (void)hc_cli_frame_name(out, sizeof out, cli, settings->out, frame); /* they were checked */
+    if (depths != NULL) {
+        (void)hc_cli_frame_name(depth_out, sizeof depth_out, cli, depths, frame);
+    }
+    return hc_cli_save_drawing(cli, picture, out, depths != NULL ? depth_out : NULL, no_legend);
+}
+
+static int stop(hc_cli *cli, hc_result result, int frame)
+{
+    const int number = hc_cli_caught_signal();
+    if (number != 0 && frame > 0) {
+        return hc_cli_fail(cli, 128 + number, "stopped by a signal after %d frames of %d", frame,
+                           cli->settings.terrain.frames);
+    }
+    return hc_cli_fail_result(cli, result);
+}
+
+static int draw_frames(hc_cli *cli, totals *t, hc_picture *picture, const hc_terrain *terrain,
+                       const hc_cli_route *route)
+{
+    const int frames = cli->settings.terrain.frames;
+    for (int i = 0; i == 0 || i < frames; i++) {
+        hc_camera camera;
+        hc_cli_route_camera(&camera, route, cli, terrain, i);
+        if (i == 0 && camera.eye[2] < hc_terrain_ground(terrain, camera.eye[0], camera.eye[1])) {
+            hc_cli_warn(cli, "the eye is under the ground at %g, %g", camera.eye[0], camera.eye[1]);
+        }
+        hc_cli_phase(cli, "cast");
+        hc_result result = hc_terrain_draw(picture, terrain, &camera, &cli->log);
+        hc_cli_phase(cli, "save");
+        result = result == HC_OK ? save_frame(cli, picture, i) : result;
+        hc_cli_phase(cli, NULL);
+        if (result != HC_OK) {
+            return stop(cli, result, i);
+        }
+        add_figures(t, &picture->figures);
+    }
+    return HC_CLI_DONE;
+}
+
+static int draw(hc_cli *cli, const hc_cli_landscape *landscape, const hc_cli_route *route)
+{
+    const hc_cli_settings  *settings = &cli->settings;
+    const hc_cli_size       size     = settings->size;
+    const hc_view           view     = view_of(settings);
+    const hc_render_options options  = { .view     = view,
+                                         .threads  = settings->threads,
+                                         .progress = hc_cli_progress(cli) };
+    hc_picture              picture  = { .width  = size.width > 0 ? size.width : WIDTH,
+                                         .height = size.width > 0 ? size.height : HEIGHT };
+    totals                  t        = { .frames = 0 };
+    hc_terrain             *terrain  = NULL;
+    hc_cli_phase(cli, "build");
+    hc_result result = hc_terrain_create(&terrain, &landscape->scene, &options, &cli->log);
+    hc_cli_phase(cli, NULL);
+    int code = result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+    if (code == HC_CLI_DONE && !hc_cli_take_picture(&picture, settings->render.depth_out != NULL)) {
+        code = hc_cli_fail_memory(cli);
+    }
+    if (code == HC_CLI_DONE) {
+        code = draw_frames(cli, &t, &picture, terrain, route);
+    }
+    if (code == HC_CLI_DONE) {
+        show(cli, terrain, &picture, view, &t);
+    }
+    free(picture.depth);
+    free(picture.rgb);
+    hc_terrain_destroy(terrain);
+    return code;
+}
+
+/* Many files hold heights and nothing about where they are. */
+static void warn_of_spacing(hc_cli *cli, const hc_cli_landscape *landscape)
+{
+    const hc_elevation *e = &landscape->ground.field.elevation;
+    if (!hc_cli_given(&cli->settings, "spacing") && !(e->spacing_x > 0.0 && e->spacing_y > 0.0)) {
+        hc_cli_warn(
+            cli,
+            "%s does not say how far its samples are apart: the longer side is taken to be 32 "
+            "times the height; --spacing says more",
+            cli->settings.paths[0]);
+    }
+}
+
+int hc_cli_run_terrain(hc_cli *cli)
+{
+    hc_cli_landscape landscape;
+    hc_cli_route     route;
+    int              code = check_meaning(cli);
+    code                  = code == HC_CLI_DONE ? check_outputs(cli) : code;
+    if (code != HC_CLI_DONE) {
+        return code;
+    }
+    code = hc_cli_route_load(&route, cli);
+    if (code == HC_CLI_DONE) {
+        code = hc_cli_landscape_load(&landscape, cli, cli->settings.paths[0]);
+        if (code == HC_CLI_DONE) {
+            warn_of_spacing(cli, &landscape);
+            code = draw(cli, &landscape, &route);
+        }
+        hc_cli_landscape_free(&landscape);
+    }
+    hc_cli_route_free(&route);
+    return code;
+}
