@@ -140,6 +140,40 @@ HC_API hc_result hc_normalise(float *heights, const hc_samples *samples,
                               const hc_normalise_options *options, hc_elevation *elevation,
                               hc_log *log);
 
+/* ---- tiles -> one field ---------------------------------------------------------------------- */
+
+#define HC_TILES_MAX 64 /* in a row or a column */
+
+/* What neighbouring tiles have along a seam.
+ * auto    shared if all edges agree, else apart
+ * shared  the last column (row) of one is the first of the next: it is there once
+ * apart   neighbours lie one sample distance apart, like samples within them */
+typedef enum hc_seams { HC_SEAMS_AUTO = 0, HC_SEAMS_SHARED, HC_SEAMS_APART } hc_seams;
+
+typedef struct hc_tiling {
+    int      columns, rows; /* [1 .. HC_TILES_MAX] */
+    hc_seams seams;
+} hc_tiling;
+
+/* Size of the field that `columns * rows` tiles make, row-major from the north-west (upper left).
+ * Tiles of a column are as wide, those of a row as high; none wraps; all have one registration.
+ * Each may have its own range: shared edges agree if they do to 2^-21 of the range of all.
+ * HC_ERROR_ARGUMENT, HC_ERROR_FIELD where shared edges differ, HC_ERROR_LIMIT; `log` names the
+ * tile. */
+HC_API hc_result hc_join_size(int *width, int *height, const hc_tiling *tiling,
+                              const hc_field *tiles, hc_log *log);
+
+/* Join them: there is no seam in one field. Heights are brought into the range of all tiles, and
+ * copied bit for bit where that is the tile's own; what else is known of elevations is taken from
+ * the first tile, whose first sample is that of the whole.
+ *
+ * heights  [out] of hc_join_size
+ * joined   [out] the field, with `heights`
+ *
+ * Errors: hc_join_size's. Reentrant. */
+HC_API hc_result hc_join_fields(float *heights, hc_field *joined, const hc_tiling *tiling,
+                                const hc_field *tiles, hc_log *log);
+
 /* ---- made fields ----------------------------------------------------------------------------- */
 
 /* Number, name and one-line description of the made fields, index 0 .. hc_synth_count() - 1; NULL

@@ -1,6 +1,7 @@
 """heightcast render terrain: pictures of landscapes, frames, paths, what is refused."""
 
 import os
+import pathlib
 import signal
 import struct
 import subprocess
@@ -155,6 +156,50 @@ class Terrain(Case):
                             says=["way.txt", says])
         self.refuse("--out", "a.png", "--path", "none.txt", code=INPUT_OUTPUT, says="none.txt")
         self.assertNotIn("a.png", self.files())
+
+    def cut(self, name, columns, rows, shared):
+        """Cut the real elevations into tiles; their names, row by row."""
+        data = pathlib.Path(ELEVATIONS).read_bytes()
+        side, first = 96, len(data) - 2 * 403 * 344
+        field = [struct.unpack_from(f">{side + 1}H", data, first + 2 * 403 * y)
+                 for y in range(side + 1)]
+        names, wide, high = [], side // columns, side // rows
+        for row in range(rows):
+            for column in range(columns):
+                lines = [line[column * wide : (column + 1) * wide + shared]
+                         for line in field[row * high : (row + 1) * high + shared]]
+                names.append(self.write_pgm(f"{name}{row}{column}.pgm", lines, 65535))
+        return names
+
+    def test_tiles_have_no_seams(self):
+        for shared in [1, 0]:
+            whole, tiles = self.cut("w", 1, 1, shared), self.cut("t", 4, 4, shared)
+            for view in ["shaded", "depth"]:
+                one = self.picture("--range", "0:2000", "--view", view, field=whole[0])
+                many = self.picture("--range", "0:2000", "--view", view, *tiles[1:], field=tiles[0])
+                self.assertEqual(one, many)
+            self.assertEqual(one, self.picture("--range", "0:2000", "--view", "depth", "--tiles",
+                                               "4x4", "--seams", ["apart", "shared"][shared],
+                                               *tiles[1:], field=tiles[0]))
+
+    def test_tiles_may_have_ranges_of_their_own(self):
+        tiles = self.cut("t", 2, 3, 1)
+        figures = self.render("--tiles", "2x3", "--view", "missed", *tiles[1:], field=tiles[0])
+        whole = self.render("--view", "missed", field=self.cut("w", 1, 1, 1)[0])
+        for key in ["low", "high", "spacing_x", "hits", "lost", "made_up"]:
+            self.assertEqual(figures[key], whole[key], key)
+        self.assertEqual(figures["tiles"], 6)
+
+    def test_tiles_that_do_not_fit(self):
+        tiles = self.cut("t", 2, 2, 0)
+        out = ["--out", "a.png"]
+        self.refused("render", "terrain", *tiles[:3], *out, code=USAGE, says="--tiles CxR")
+        self.refused("render", "terrain", *tiles, "--tiles", "3x1", *out, code=USAGE, says="3 files")
+        self.refused("render", "terrain", *tiles, "--seams", "shared", *out, code=BAD_FILE,
+                     says=["should share an edge", "east"])
+        self.hills()
+        self.refused("render", "terrain", *tiles[:3], "hills.pgm", *out, code=USAGE,
+                     says="tile [1, 1] is 24 x 17")
 
     def test_an_eye_under_the_ground_is_told(self):
         figures = self.render("--spacing", "20", "--eye", "200,-200,-50", "--at", "300,-200,-50")

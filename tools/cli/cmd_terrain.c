@@ -145,6 +145,9 @@ static void show(hc_cli *cli, const hc_terrain *terrain, const hc_picture *pictu
     if (settings->render.depth_out != NULL) {
         hc_cli_text(cli, "depth_output", settings->render.depth_out);
     }
+    if (settings->path_count > 1) {
+        hc_cli_number(cli, "tiles", settings->path_count, NULL);
+    }
     hc_cli_show_size(cli, picture->width, picture->height);
     if (settings->terrain.frames > 0) {
         hc_cli_number(cli, "frames", t->frames, NULL);
@@ -278,7 +281,7 @@ int hc_cli_run_terrain(hc_cli *cli)
     }
     code = hc_cli_route_load(&route, cli);
     if (code == HC_CLI_DONE) {
-        code = hc_cli_landscape_load(&landscape, cli, cli->settings.paths[0]);
+        code = hc_cli_landscape_load(&landscape, cli);
         if (code == HC_CLI_DONE) {
             warn_of_spacing(cli, &landscape);
             code = draw(cli, &landscape, &route);

@@ -7,15 +7,82 @@
 #include <stdlib.h>
 #include <string.h>
 
-static int load_ground(hc_cli_landscape *landscape, hc_cli *cli, const char *path)
+/* ---- tiles ----------------------------------------------------------------------------------- */
+
+static int choose_tiling(hc_tiling *tiling, hc_cli *cli)
 {
-    const hc_trace_needs needs = hc_trace_method_needs((hc_trace_method)cli->settings.rays.method);
-    if (!hc_cli_given(&cli->settings, "range")) {
+    const int   count = cli->settings.path_count;
+    hc_cli_size size  = cli->settings.terrain.tiles;
+    for (int side = 1; size.width == 0 && side * side <= count; side++) {
+        if (side * side == count) {
+            size = (hc_cli_size){ side, side };
+        }
+    }
+    if (size.width == 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "%d files make no square; give --tiles CxR", count);
+    }
+    if ((int64_t)size.width * size.height != count) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--tiles %dx%d needs %lld files; got %d", size.width,
+                           size.height, (long long)size.width * size.height, count);
+    }
+    *tiling = (hc_tiling){ size.width, size.height, cli->settings.terrain.seams };
+    return HC_CLI_DONE;
+}
+
+static int join(hc_cli_scene *ground, hc_cli *cli, const hc_tiling *tiling, const hc_field *fields)
+{
+    int       width = 0, height = 0;
+    hc_result result = hc_join_size(&width, &height, tiling, fields, &cli->log);
+    if (result == HC_OK) {
+        ground->heights = malloc((size_t)width * (size_t)height * sizeof *ground->heights);
+        if (ground->heights == NULL) {
+            return hc_cli_fail_memory(cli);
+        }
+        result = hc_join_fields(ground->heights, &ground->field, tiling, fields, &cli->log);
+    }
+    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+}
+
+static int load_tiles(hc_cli_scene *ground, hc_cli *cli)
+{
+    const int     count  = cli->settings.path_count;
+    hc_cli_scene *tiles  = calloc((size_t)count, sizeof *tiles);
+    hc_field     *fields = calloc((size_t)count, sizeof *fields);
+    hc_tiling     tiling = { .columns = 0 };
+    int           code   = choose_tiling(&tiling, cli);
+    if (code == HC_CLI_DONE && (tiles == NULL || fields == NULL)) {
+        code = hc_cli_fail_memory(cli);
+    }
+    for (int i = 0; code == HC_CLI_DONE && i < count; i++) {
+        code           = hc_cli_scene_load(&tiles[i], cli, cli->settings.paths[i]);
+        fields[i]      = tiles[i].field;
+        fields[i].wrap = HC_WRAP_NONE; /* a map may say otherwise */
+    }
+    if (code == HC_CLI_DONE) {
+        code = join(ground, cli, &tiling, fields);
+    }
+    for (int i = 0; tiles != NULL && i < count; i++) {
+        hc_cli_scene_free(&tiles[i]);
+    }
+    free(fields);
+    free(tiles);
+    return code;
+}
+
+/* ---- the scene ------------------------------------------------------------------------------- */
+
+static int load_ground(hc_cli_landscape *landscape, hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const hc_trace_needs   needs    = hc_trace_method_needs((hc_trace_method)settings->rays.method);
+    const bool             one = settings->path_count == 1 && settings->terrain.tiles.width == 0;
+    if (!hc_cli_given(settings, "range")) {
         cli->settings.load.normalise.range = HC_RANGE_DATA;
     }
     hc_cli_phase(cli, "load");
-    int code = hc_cli_scene_load(&landscape->ground, cli, path);
-    if (code == HC_CLI_DONE && cli->settings.render.albedo != NULL) {
+    int code = one ? hc_cli_scene_load(&landscape->ground, cli, settings->paths[0])
+                   : load_tiles(&landscape->ground, cli);
+    if (code == HC_CLI_DONE && settings->render.albedo != NULL) {
         code = hc_cli_load_albedo(cli, &landscape->image, &landscape->scene.image_width,
                                   &landscape->scene.image_height);
     }
@@ -61,10 +128,10 @@ static void choose_scene(hc_cli_landscape *landscape, const hc_cli *cli)
     memcpy(scene->sun, settings->render.light, sizeof scene->sun);
 }
 
-int hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli, const char *path)
+int hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli)
 {
     *landscape     = (hc_cli_landscape){ .image = NULL };
-    const int code = load_ground(landscape, cli, path);
+    const int code = load_ground(landscape, cli);
     if (code == HC_CLI_DONE) {
         choose_scene(landscape, cli);
     }

@@ -12,9 +12,9 @@ typedef struct hc_cli_landscape {
     float           *image; /* or NULL */
 } hc_cli_landscape;
 
-/* Load, bake and choose. Returns the exit code. hc_cli_landscape_free must follow, whatever it
+/* Load the file or the tiles, bake and choose. Returns the exit code. hc_cli_landscape_free must follow, whatever it
  * is. */
-int  hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli, const char *path);
+int  hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli);
 void hc_cli_landscape_free(hc_cli_landscape *landscape);
 
 #endif

@@ -53,8 +53,8 @@ const hc_cli_command hc_cli_commands[] = {
       "itself, so it has true depth, shadows and silhouettes; there is no mesh. Heights are "
       "stretched to the full depth unless --range says otherwise.",
       false },
-    { "render terrain", HC_CLI_TERRAIN, hc_cli_run_terrain, "FIELD", 1, 1,
-      "Draw a height field as a landscape",
+    { "render terrain", HC_CLI_TERRAIN, hc_cli_run_terrain, "FIELD...", 1, HC_CLI_PATHS_MAX,
+      "Draw height fields as a landscape",
       "FIELD is a height map, or a baked map that holds the heights; it stands in world units. "
       "Rays "
       "are cast from any eye in any direction, and from what they hit to the sun; there is no "

@@ -6,7 +6,7 @@
 #include <heightcast/io.h>
 #include <heightcast/terrain.h>
 
-#define HC_CLI_PATHS_MAX 2
+#define HC_CLI_PATHS_MAX 256
 #define HC_CLI_OPTIONS_MAX 128 /* rows of the option table */
 
 typedef enum hc_cli_backend { HC_CLI_CPU = 0, HC_CLI_GL } hc_cli_backend;
@@ -65,6 +65,8 @@ typedef struct hc_cli_terrain {
     bool        blocky;
     int         frames; /* 0: one picture, at `moment` */
     const char *path;
+    hc_cli_size tiles; /* columns and rows */
+    hc_seams    seams;
 } hc_cli_terrain;
 
 /* All zero: the defaults, as the library's own option structs have them. */

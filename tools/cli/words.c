@@ -153,3 +153,9 @@ const char *hc_cli_switch_words(int index)
     static const char *const words[] = { "on", "off", NULL };
     return words[index];
 }
+
+const char *hc_cli_seams_words(int index)
+{
+    static const char *const words[] = { "auto", "shared", "apart", NULL };
+    return words[index];
+}
