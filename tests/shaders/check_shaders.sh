@@ -46,7 +46,7 @@ fragment() {
 }
 
 for language in core es; do
-    { head_of $language && cat "$shaders/relief.vert"; } >"$folder/$language.vert"
+    { head_of $language && cat "$shaders/screen.vert"; } >"$folder/$language.vert"
     check $language.vert vert
     for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
         RELAXED ROBUST QUICK; do

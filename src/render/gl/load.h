@@ -4,6 +4,7 @@
 #define HC_RENDER_GL_LOAD_H
 
 #include "../stage.h"
+#include "upload.h"
 
 enum {
     HC_GL_HEIGHTS = 0,
@@ -17,11 +18,8 @@ enum {
 /* textures [out] names, by texture unit. */
 hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log);
 
-/* relief.vert, and relief.frag behind heightcast.glsl, with `head` before both. */
+/* relief.frag behind heightcast.glsl, with `head` before it. */
 hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log);
-
-/* Number of the tracer's method in heightcast.glsl; 0: it has none. */
-int hc_gl_method(hc_trace_method method);
 
 /* Uniforms of the program in use that do not change while a picture is drawn. */
 void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method);

@@ -1,4 +1,4 @@
-/* One triangle over the whole picture; relief.frag does the rest. */
+/* One triangle over the whole picture; the fragment shader does the rest. */
 void main(void)
 {
     vec2 corner = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

@@ -1,0 +1,39 @@
+/* Numbers, images and programs of any scene, to the context that is current. */
+#ifndef HC_RENDER_GL_UPLOAD_H
+#define HC_RENDER_GL_UPLOAD_H
+
+#include "../eye.h"
+
+/* ---- textures: *texture is a new name, bound to `unit` ---- */
+
+hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int width, int height,
+                          int channels, const char *what, hc_log *log);
+/* Of the texture just loaded: textureGather reads over the edges that repeat. */
+void      hc_upload_wrap(hc_wrap wrap);
+hc_result hc_upload_pyramid(unsigned *texture, int unit, const hc_pyramid *pyramid, hc_log *log);
+
+/* ---- uniforms of the program in use; those that it does not have are passed over ---- */
+
+void hc_upload_int(unsigned program, const char *name, int value);
+void hc_upload_float(unsigned program, const char *name, double value);
+void hc_upload_pair(unsigned program, const char *name, double x, double y);
+void hc_upload_vector(unsigned program, const char *name, const double v[3]);
+
+/* What heightcast.glsl wants to know, but for its textures. */
+void hc_upload_field(unsigned program, const hc_field *field, const hc_trace_options *trace,
+                     hc_trace_method method);
+/* u_eye, u_forward, u_right, u_down, u_orthographic, u_picture. */
+void hc_upload_eye(unsigned program, const hc_eye *eye);
+
+/* ---- programs ---- */
+
+/* Number of the tracer's method in heightcast.glsl; 0: it has none. */
+int hc_gl_method(hc_trace_method method);
+
+/* What stands before both shaders. */
+void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones);
+
+/* screen.vert, and the fragment shader `name` behind heightcast.glsl, with `head` before both. */
+hc_result hc_upload_program(unsigned *program, const char *head, const char *name, hc_log *log);
+
+#endif
