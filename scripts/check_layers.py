@@ -19,6 +19,7 @@ ARROWS = {
     "bake": ["base", "field", "maps"],
     "trace": ["base", "field", "maps"],
     "gl": ["base"],
+    "gpu": ["base", "field", "maps", "bake", "gl"],
     "render": ["base", "field", "maps", "trace", "gl"],
     "io": ["base", "field", "maps"],
 }
@@ -33,6 +34,7 @@ PUBLIC = {
     "bake.h": "bake",
     "trace.h": "trace",
     "render.h": "render",
+    "gpu.h": "gpu",
     "terrain.h": "render",
     "io.h": "io",
 }

@@ -154,6 +154,16 @@ HC_API void hc_bake_bounds(float *bounds, const hc_field *field, hc_extreme extr
 
 /* ---- whole maps, quantised safely ------------------------------------------------------------ */
 
+/* What computes ratios and pyramids: as hc_bake_cone_map and hc_bake_pyramid, with `user` in front.
+ * heightcast/gpu.h has one. */
+typedef struct hc_map_baker {
+    hc_result (*cones)(void *user, float *ratios, const hc_field *field,
+                       const hc_cone_options *options, hc_log *log);
+    hc_result (*pyramid)(void *user, hc_pyramid *pyramid, float *values, const float *heights,
+                         int width, int height, hc_extreme extreme, hc_log *log);
+    void *user;
+} hc_map_baker;
+
 typedef struct hc_map_options {
     hc_map_kind     kind;
     hc_layout       layout;
@@ -163,6 +173,8 @@ typedef struct hc_map_options {
     hc_cone_options cone;       /* kinds cone and relaxed. max_ratio 0: no limit for float, 1 for
                                    codes. relaxed: method gems or falling-edge; exact (zero) means
                                    falling-edge                                                  */
+    /* NULL: the CPU. compat2006 and gradients are the CPU's in any case. */
+    const hc_map_baker *baker;
 } hc_map_options;
 
 /* Fill in the info of the map that hc_bake_map would make: all defaults resolved. Then allocate

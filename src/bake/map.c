@@ -75,7 +75,9 @@ static hc_result bake_ratios(const making *self, float *ratios)
     if (self->map->info.kind == HC_MAP_RELAXED && cone.method == HC_METHOD_EXACT) {
         cone.method = HC_METHOD_FALLING_EDGE;
     }
-    return hc_bake_cone_map(ratios, &stored, &cone, self->log);
+    const hc_map_baker *baker = self->options->baker;
+    return baker != NULL ? baker->cones(baker->user, ratios, &stored, &cone, self->log)
+                         : hc_bake_cone_map(ratios, &stored, &cone, self->log);
 }
 
 /* Float texels are baked in place: the ratios go to the end of the texels, and since each texel has
@@ -162,6 +164,19 @@ static hc_result bake_cones(making *self)
     return result;
 }
 
+static hc_result fill_pyramid(const making *self, hc_pyramid *pyramid, float *values,
+                              const float *base, hc_extreme extreme)
+{
+    const hc_map_info  *info  = &self->map->info;
+    const hc_map_baker *baker = self->options->baker;
+    if (baker != NULL) {
+        return baker->pyramid(baker->user, pyramid, values, base, info->width, info->height,
+                              extreme, self->log);
+    }
+    hc_bake_pyramid(pyramid, values, base, info->width, info->height, extreme);
+    return HC_OK;
+}
+
 /* One channel after the other, so that one pyramid's memory is enough. */
 static hc_result bake_pyramids(making *self)
 {
@@ -170,7 +185,8 @@ static hc_result bake_pyramids(making *self)
     if (values == NULL) {
         return out_of_memory(self);
     }
-    for (int channel = 0; channel < info->channels; channel++) {
+    hc_result result = HC_OK;
+    for (int channel = 0; channel < info->channels && result == HC_OK; channel++) {
         const hc_extreme extreme = channel == 0 ? HC_MAXIMUM : HC_MINIMUM;
         const float     *base    = self->field->heights;
         hc_pyramid       pyramid;
@@ -178,14 +194,14 @@ static hc_result bake_pyramids(making *self)
             hc_bake_bounds(values, self->field, extreme);
             base = values;
         }
-        hc_bake_pyramid(&pyramid, values, base, info->width, info->height, extreme);
-        for (int level = 0; level < info->levels; level++) {
+        result = fill_pyramid(self, &pyramid, values, base, extreme);
+        for (int level = 0; level < info->levels && result == HC_OK; level++) {
             const float *from = hc_pyramid_level(&pyramid, level, NULL, NULL);
             hc_put_extremes(self->map, level, channel, from, extreme);
         }
     }
     free(values);
-    return HC_OK;
+    return result;
 }
 
 static hc_result bake_gradient(making *self)

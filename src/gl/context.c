@@ -74,6 +74,11 @@ hc_result hc_gl_open(hc_gl_context *context, hc_log *log)
         context->context = NULL;
         return refuse("the driver has no OpenGL 4.3 core", log);
     }
+    return hc_gl_use(context, log);
+}
+
+hc_result hc_gl_use(const hc_gl_context *context, hc_log *log)
+{
     return eglMakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, context->context)
                ? HC_OK
                : refuse("the driver draws to windows only", log);

@@ -13,6 +13,9 @@ typedef struct hc_gl_context {
 hc_result hc_gl_open(hc_gl_context *context, hc_log *log);
 void      hc_gl_close(hc_gl_context *context);
 
+/* Make it the calling thread's again, whatever was opened and closed since. */
+hc_result hc_gl_use(const hc_gl_context *context, hc_log *log);
+
 /* What GL has to complain about since the last call: HC_OK, HC_ERROR_MEMORY, or HC_ERROR_IO if the
  * context is lost. `what` is what was done. */
 hc_result hc_gl_check(const char *what, hc_log *log);

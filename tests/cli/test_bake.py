@@ -190,9 +190,48 @@ class Contradictions(Case):
                 self.refused("bake", "hills.pgm", *options.split(), code=USAGE, says=says)
         self.assertEqual(self.files(), ["hills.pgm"])
 
-    def test_gl_is_not_there(self):
-        self.refused("bake", self.hills(), "out.png", "--backend", "gl", code=BAD_FILE,
-                     says="not in this build")
+    def test_opengl_bakes_the_same(self):
+        self.hills()
+        for name, options in [("map.exr", ["--cones", "quad", "--wrap", "u"]),
+                              ("map.png", ["--method", "quick-improved"]),
+                              ("map.npy", ["--map", "relaxed"]),
+                              ("map.ktx2", ["--map", "pyramid", "--bits", "8"])]:
+            with self.subTest(name=name):
+                figures = self.json("bake", "hills.pgm", "gl." + name, "--backend", "gl", *options)
+                if figures["backend"] == "cpu":
+                    self.skipTest(figures["warnings"][0])
+                self.run_program("bake", "hills.pgm", name, *options)
+                if figures["gpu_rounds"] == "yes":
+                    self.assertEqual(self.path("gl." + name).read_bytes(),
+                                     self.path(name).read_bytes())
+
+    def test_the_cpu_bakes_where_opengl_does_not(self):
+        self.hills()
+        self.run_program("bake", "hills.pgm", "cpu.npy")
+        for options, environment, says in [
+            (["--method", "ring"], {}, "CPU"),
+            ([], {"__EGL_VENDOR_LIBRARY_FILENAMES": "/nowhere.json"}, "OpenGL cannot be used"),
+            ([], {"MESA_GL_VERSION_OVERRIDE": "3.3"}, "OpenGL cannot be used"),
+        ]:
+            with self.subTest(says=says):
+                figures = self.json("bake", "hills.pgm", "gl.npy", "--overwrite", "--backend", "gl",
+                                    *options, env={**os.environ, **environment})
+                if figures["backend"] == "gl":
+                    self.skipTest("this driver does not listen")
+                self.assertIn("; the CPU bakes", figures["warnings"][0])
+                self.assertEqual(self.read_npy("gl.npy"), self.read_npy("cpu.npy"))
+
+    def test_opengl_has_nothing_to_do(self):
+        for options, says in [(["--map", "gradient"], "--map gradient"),
+                              (["--compat", "2006"], "--compat")]:
+            self.refused("bake", self.hills(), "out.png", "--backend", "gl", *options, code=USAGE,
+                         says=["--backend gl does nothing", says])
+        self.write_pgm("wide.pgm", [[i % 256 for i in range(65536)]])
+        figures = self.json("bake", "hills.pgm", "a.exr", "--backend", "gl")
+        if figures["backend"] == "gl":
+            self.refused("bake", "wide.pgm", "out.exr", "--backend", "gl", code=MEMORY,
+                         says=["field of 65536 x 1", "use cpu"])
+            self.assertNotIn("out.exr", self.files())
 
 
 class Outputs(Case):

@@ -67,6 +67,20 @@ for language in core es; do
     done
 done
 
+for search in PYRAMID BRUTE EXACT QUICK FALLING ROUNDING; do
+    for l2 in 0 1; do
+        for sided in 0 1; do
+            {
+                head_of core
+                printf '#define HC_BAKE HC_%s\n#define HC_L2 %s\n' $search $l2
+                printf '#define HC_SIDED %s\n' $sided
+                cat "$shaders/bake.comp"
+            } >"$folder/$search-$l2-$sided.comp"
+            check $search-$l2-$sided.comp comp
+        done
+    done
+done
+
 fragment wrong.frag core "HC_METHOD HC_SAFE" HC_DUMMER
 if glslangValidator -S frag "$folder/wrong.frag" >"$folder/log"; then
     echo "wrong.frag compiles"

@@ -3,6 +3,9 @@
 #include "figures.h"
 #include "options.h"
 #include "output.h"
+#include "words.h"
+
+#include <heightcast/gpu.h>
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -35,6 +38,11 @@ static int refuse_idle_options(hc_cli *cli)
             return hc_cli_fail(cli, HC_CLI_USAGE, "--%s does nothing for --map %s; leave it out",
                                of_cones[i], hc_map_kind_name(map->kind));
         }
+    }
+    if (cli->settings.backend == HC_CLI_GL
+        && (map->kind == HC_MAP_GRADIENT || given(cli, "compat"))) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl does nothing for %s; leave it out",
+                           given(cli, "compat") ? "--compat" : "--map gradient");
     }
     if (given(cli, "gems-steps") && map->cone.method != HC_METHOD_GEMS) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--gems-steps needs --map relaxed --method gems");
@@ -180,10 +188,6 @@ static int resolve(hc_cli *cli)
 {
     hc_cli_settings    *settings  = &cli->settings;
     const hc_container *container = hc_container_of(settings->paths[1]);
-    if (settings->backend == HC_CLI_GL) {
-        return hc_cli_fail(cli, HC_CLI_BAD_FILE,
-                           "--backend gl is not in this build; --backend cpu is");
-    }
     if (container == NULL || container->map_bits == 0) {
         char endings[128];
         hc_cli_list_endings(endings, sizeof endings, HC_CLI_MAP, 8 | 16 | 32);
@@ -223,6 +227,7 @@ static void show(hc_cli *cli, const hc_map_info *info)
     hc_cli_text(cli, "output", out);
     hc_cli_number(cli, "output_bytes", hc_cli_file_bytes(out), NULL);
     hc_cli_show_map(cli, info);
+    hc_cli_text(cli, "backend", hc_cli_backend_words((int)cli->settings.backend));
     hc_cli_number(cli, "ns_per_texel", 1e9 * hc_cli_seconds(cli, "bake") / samples, NULL);
     hc_cli_details(cli, true);
     hc_cli_show_elevation(cli, &info->elevation);
@@ -232,11 +237,52 @@ static void show(hc_cli *cli, const hc_map_info *info)
     hc_cli_details(cli, false);
 }
 
+static void show_gpu(hc_cli *cli, const hc_gpu *gpu)
+{
+    hc_cli_text(cli, "gpu", hc_gpu_name(gpu));
+    hc_cli_text(cli, "gpu_rounds", hc_gpu_rounds(gpu) ? "yes" : "no");
+    hc_cli_number(cli, "seconds_of_shaders", hc_gpu_seconds(gpu), NULL);
+}
+
+static hc_result bake_by_gl(hc_cli *cli, const hc_field *field, hc_map *map)
+{
+    hc_map_options options = cli->settings.map;
+    hc_gpu        *gpu;
+    hc_result      result = hc_gpu_create(&gpu, &cli->log);
+    if (result == HC_OK) {
+        options.baker = hc_gpu_map_baker(gpu);
+        result        = hc_bake_map(map, field, &options, &cli->log);
+    }
+    if (result == HC_OK) {
+        show_gpu(cli, gpu);
+    }
+    hc_gpu_destroy(gpu);
+    return result;
+}
+
+/* Where there is no OpenGL, or not for this method, the CPU bakes. */
+static hc_result bake(hc_cli *cli, const hc_field *field, hc_map *map)
+{
+    hc_cli_settings *settings = &cli->settings;
+    hc_result        result   = HC_ERROR_UNSUPPORTED;
+    if (settings->backend == HC_CLI_GL) {
+        result = bake_by_gl(cli, field, map);
+    }
+    if (result == HC_ERROR_UNSUPPORTED) {
+        if (settings->backend == HC_CLI_GL) {
+            hc_cli_warn(cli, "%s; the CPU bakes", cli->log.text);
+            settings->backend = HC_CLI_CPU;
+        }
+        result = hc_bake_map(map, field, &settings->map, &cli->log);
+    }
+    return result;
+}
+
 static int bake_and_save(hc_cli *cli, const hc_field *field, hc_map *map)
 {
     const hc_cli_settings *settings = &cli->settings;
     hc_cli_phase(cli, "bake");
-    hc_result result = hc_bake_map(map, field, &settings->map, &cli->log);
+    hc_result result = bake(cli, field, map);
     if (result == HC_OK) {
         hc_cli_phase(cli, "save");
         result = hc_save_map(map, settings->paths[1], &settings->save, &cli->log);

@@ -1,0 +1,62 @@
+/* Baking on the GPU, by compute shaders of OpenGL 4.3 (shaders/bake.comp). In libheightcast-render,
+ * which has all that needs OpenGL; without a GPU Mesa's software renderer does it.
+ *
+ *     hc_gpu *gpu;
+ *     if (hc_gpu_create(&gpu, &log) == HC_OK) {
+ *         result = hc_gpu_bake_cone_map(gpu, ratios, &field, NULL, &log);
+ *         hc_gpu_destroy(gpu);
+ *     }
+ *
+ * What comes out is what bake.h promises: bit for bit where the driver rounds quotients and roots
+ * as IEEE 754 does (hc_gpu_rounds), which is tried once. Elsewhere ratios are never wider than
+ * those, and narrower by less than one part in 2^16; of two elongated diamonds that are about as
+ * good it may be the other. */
+#ifndef HEIGHTCAST_GPU_H
+#define HEIGHTCAST_GPU_H
+
+#include <heightcast/bake.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* An OpenGL context of its own, without a window, and the programs that were compiled so far.
+ * Belongs to the thread that made it. */
+typedef struct hc_gpu hc_gpu;
+
+/* HC_ERROR_UNSUPPORTED where there is no EGL, no OpenGL 4.3, or this build has none; HC_ERROR_MEMORY.
+ * Destroy with hc_gpu_destroy, which accepts NULL. */
+HC_API hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log);
+HC_API void      hc_gpu_destroy(hc_gpu *gpu);
+
+HC_API const char *hc_gpu_name(const hc_gpu *gpu); /* as the driver says; lives as long as `gpu` */
+HC_API bool        hc_gpu_rounds(const hc_gpu *gpu); /* as IEEE 754 does */
+
+/* Seconds of the last bake that the shaders ran, by the wall clock with everything finished: less
+ * compiling, loading and reading back. */
+HC_API double hc_gpu_seconds(const hc_gpu *gpu);
+
+/* As hc_bake_cone_map. Of the options, isa and threads do not count.
+ *
+ * Every method but ring and gems, which are the CPU's alone: HC_ERROR_UNSUPPORTED. Work is given to
+ * the driver in pieces that take about a twentieth of a second, and reported after each.
+ * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); the same once, and 9.4 bytes,
+ * on the GPU. Errors besides: HC_ERROR_LIMIT for fields larger than the driver's textures;
+ * HC_ERROR_MEMORY, on the GPU too; HC_ERROR_IO if the context is lost. */
+HC_API hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field,
+                                      const hc_cone_options *options, hc_log *log);
+
+/* As hc_bake_pyramid, bit for bit, with the same errors. */
+HC_API hc_result hc_gpu_bake_pyramid(hc_gpu *gpu, hc_pyramid *pyramid, float *values,
+                                     const float *heights, int width, int height,
+                                     hc_extreme extreme, hc_log *log);
+
+/* For hc_map_options.baker: hc_bake_map then has its ratios and pyramids from here. As long as
+ * `gpu`. */
+HC_API const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,319 @@
+/* hc_bake_cone_map's work on the GPU: each search of a job into a texture of steepness, which the
+ * CPU turns into ratios. */
+#include "gpu.h"
+
+#include "bake/cone_job.h"
+#include "base/fail.h"
+
+#include <epoxy/gl.h>
+
+#include <stdlib.h>
+
+enum {
+    BEST_UNIT = 0,
+    HEIGHTS_UNIT,
+    HIGHEST_UNIT,
+    ROWS_AT_FIRST = 16,
+    BRUTE_TEXELS  = 1 << 14, /* of a dispatch that looks at all samples */
+    FALLING       = 4        /* searches of relaxed cones */
+};
+
+/* Dispatches are halved and doubled to take this long. */
+static const double PIECE_SECONDS = 0.05;
+
+typedef struct baking {
+    hc_gpu            *gpu;
+    const hc_cone_job *job;
+    hc_method          method;
+    bool               l2;
+    hc_cone_search     searches[HC_CONE_SEARCHES_MAX];
+    int                count, current; /* searches */
+    unsigned           heights, highest, best;
+    float             *steepness; /* width * height of each search that is kept */
+} baking;
+
+static size_t samples(const baking *b)
+{
+    return (size_t)b->job->width * (size_t)b->job->height;
+}
+
+/* ---- pieces --------------------------------------------------------------------------------- */
+
+static hc_result report(const baking *b, double share)
+{
+    const hc_progress *progress = &b->job->progress;
+    const double       all      = (b->current + share) / b->count;
+    return progress->report == NULL || progress->report(progress->user, all) ? HC_OK
+                                                                             : HC_ERROR_CANCELLED;
+}
+
+static int paced(int rows, double seconds)
+{
+    return seconds > 2.0 * PIECE_SECONDS && rows > 1 ? rows / 2
+           : seconds < 0.5 * PIECE_SECONDS           ? 2 * rows
+                                                     : rows;
+}
+
+static int least(int a, int b)
+{
+    return a < b ? a : b;
+}
+
+/* All texels, some rows at a time. */
+static hc_result run_rows(const baking *b, unsigned program)
+{
+    hc_result result = HC_OK;
+    int       rows   = ROWS_AT_FIRST;
+    for (int y = 0; y < b->job->height && result == HC_OK;) {
+        const int first[2] = { 0, y };
+        const int end[2]   = { b->job->width, least(y + rows, b->job->height) };
+        rows               = paced(rows, hc_gpu_dispatch(b->gpu, program, first, end));
+        y                  = end[1];
+        result             = hc_gl_check("baking", b->job->log);
+        result             = result == HC_OK ? report(b, (double)y / b->job->height) : result;
+    }
+    return result;
+}
+
+/* Some texels against all samples, some rows of them at a time. */
+static hc_result run_against_all(const baking *b, unsigned program, const int first[2],
+                                 const int end[2], int *rows)
+{
+    hc_result result = HC_OK;
+    for (int y = 0; y < b->job->height && result == HC_OK;) {
+        const int next = least(y + *rows, b->job->height);
+        hc_gpu_set_pair(program, "u_rows", y, next);
+        glUniform1i(glGetUniformLocation(program, "u_go_on"), y > 0);
+        *rows  = paced(*rows, hc_gpu_dispatch(b->gpu, program, first, end));
+        y      = next;
+        result = hc_gl_check("baking", b->job->log);
+    }
+    return result;
+}
+
+static hc_result run_brute(const baking *b, unsigned program)
+{
+    const int width  = b->job->width;
+    const int height = b->job->height;
+    const int deep   = BRUTE_TEXELS / least(width, BRUTE_TEXELS);
+    hc_result result = HC_OK;
+    int       rows   = 1;
+    for (int y = 0; y < height && result == HC_OK; y += deep) {
+        for (int x = 0; x < width && result == HC_OK; x += BRUTE_TEXELS) {
+            const int first[2] = { x, y };
+            const int end[2]   = { least(x + BRUTE_TEXELS, width), least(y + deep, height) };
+            result             = run_against_all(b, program, first, end, &rows);
+        }
+        result = result == HC_OK ? report(b, least(y + deep, height) / (double)height) : result;
+    }
+    return result;
+}
+
+/* ---- searches ------------------------------------------------------------------------------- */
+
+static void set_search(const baking *b, unsigned program)
+{
+    const hc_cone_search *search = &b->searches[b->current];
+    const bool            centre =
+        b->method == HC_METHOD_QUICK_CENTRE || b->method == HC_METHOD_QUICK_NAIVE_CENTRE;
+    const bool improved =
+        b->method == HC_METHOD_QUICK_IMPROVED || b->method == HC_METHOD_QUICK_CENTRE;
+    hc_gpu_set_pair(program, "u_size", b->job->width, b->job->height);
+    hc_gpu_set_pair(program, "u_wraps", b->job->wrap_u, b->job->wrap_v);
+    hc_gpu_set_pair(program, "u_sides", search->sign_u, search->sign_v);
+    glUniform2f(glGetUniformLocation(program, "u_step"), search->step_u, search->step_v);
+    glUniform1i(glGetUniformLocation(program, "u_levels"),
+                hc_pyramid_levels(b->job->width, b->job->height));
+    glUniform1i(glGetUniformLocation(program, "u_heights"), HEIGHTS_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_highest"), HIGHEST_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_improved"), improved);
+    glUniform1i(glGetUniformLocation(program, "u_centre"), centre);
+    glUniform1i(glGetUniformLocation(program, "u_go_on"),
+                b->method == HC_METHOD_FALLING_EDGE && b->current > 0);
+}
+
+static void bind_best(unsigned texture)
+{
+    glBindImageTexture(BEST_UNIT, texture, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+}
+
+/* The samples that limit the quadrant's relaxed cones, in place of all. */
+static hc_result keep_falling(const baking *b)
+{
+    const int       first[2] = { 0, 0 };
+    const int       end[2]   = { b->job->width, b->job->height };
+    unsigned        program;
+    const hc_result result = hc_gpu_use(b->gpu, &program, HC_GPU_FALLING, b->l2, true, b->job->log);
+    if (result != HC_OK) {
+        return result;
+    }
+    set_search(b, program);
+    bind_best(b->highest);
+    hc_gpu_warm_up(program);
+    (void)hc_gpu_dispatch(b->gpu, program, first, end);
+    return hc_gpu_fill_pyramid(b->gpu, b->highest, b->job->width, b->job->height, HC_MAXIMUM,
+                               b->job->log);
+}
+
+static hc_result search(const baking *b)
+{
+    const bool          sided = b->searches[b->current].sign_u != 0;
+    const bool          brute = b->method == HC_METHOD_BRUTE;
+    const bool          exact = b->method == HC_METHOD_EXACT || b->method == HC_METHOD_FALLING_EDGE;
+    const hc_gpu_shader shader = brute ? HC_GPU_BRUTE : exact ? HC_GPU_EXACT : HC_GPU_QUICK;
+    unsigned            program;
+    hc_result           result = HC_OK;
+    if (b->method == HC_METHOD_FALLING_EDGE) {
+        result = keep_falling(b);
+    }
+    if (result == HC_OK) {
+        result = hc_gpu_use(b->gpu, &program, shader, b->l2, sided, b->job->log);
+    }
+    if (result != HC_OK) {
+        return result;
+    }
+    set_search(b, program);
+    bind_best(b->best);
+    hc_gpu_warm_up(program);
+    return brute ? run_brute(b, program) : run_rows(b, program);
+}
+
+static hc_result read_back(const baking *b)
+{
+    const bool one = b->method == HC_METHOD_FALLING_EDGE;
+    glActiveTexture(GL_TEXTURE0);
+    glBindTexture(GL_TEXTURE_2D, b->best);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT,
+                  b->steepness + (one ? 0 : (size_t)b->current * samples(b)));
+    return hc_gl_check("reading back", b->job->log);
+}
+
+/* ---- ratios --------------------------------------------------------------------------------- */
+
+/* Drivers that do not round may have found up to 2^-19 less than there is. */
+static float outwards(const hc_gpu *gpu, float steepness)
+{
+    return gpu->rounds ? steepness : steepness * (1.0F + 0x1p-18F);
+}
+
+static void write_ratios(const baking *b)
+{
+    const size_t count    = samples(b);
+    const int    channels = b->job->channels;
+    const int    kept     = b->method == HC_METHOD_FALLING_EDGE ? 1 : b->count;
+    for (size_t i = 0; i < count; i++) {
+        float steepness[HC_CONE_SEARCHES_MAX];
+        for (int k = 0; k < kept; k++) {
+            steepness[k] = outwards(b->gpu, b->steepness[(size_t)k * count + i]);
+        }
+        hc_write_ratios(b->job->ratios + i * (size_t)channels, b->job->cones, steepness);
+    }
+}
+
+/* ---- all together --------------------------------------------------------------------------- */
+
+/* Relaxed cones are searched by quadrants, too. */
+static void plan(baking *b)
+{
+    b->count = hc_cone_searches(b->searches, b->job);
+    if (b->method == HC_METHOD_FALLING_EDGE) {
+        for (int i = 0; i < FALLING; i++) {
+            b->searches[i] = (hc_cone_search){ .step_u = b->job->step_u,
+                                               .step_v = b->job->step_v,
+                                               .sign_u = i % 2 == 0 ? 1 : -1,
+                                               .sign_v = i / 2 == 0 ? 1 : -1 };
+        }
+        b->count = FALLING;
+    }
+}
+
+static hc_result load(baking *b)
+{
+    const hc_cone_job *job     = b->job;
+    const int          levels  = hc_pyramid_levels(job->width, job->height);
+    const bool         relaxed = b->method == HC_METHOD_FALLING_EDGE;
+    const size_t       kept    = relaxed ? 1 : (size_t)b->count;
+    b->steepness               = malloc(samples(b) * kept * sizeof *b->steepness);
+    if (b->steepness == NULL) {
+        return hc_fail(job->log, HC_ERROR_MEMORY, "no memory for what the GPU finds");
+    }
+    glActiveTexture(GL_TEXTURE0 + BEST_UNIT);
+    hc_result result = hc_gpu_texture(&b->best, job->width, job->height, 1, NULL, job->log);
+    if (result == HC_OK) {
+        glActiveTexture(GL_TEXTURE0 + HEIGHTS_UNIT);
+        result = hc_gpu_texture(&b->heights, job->width, job->height, 1, job->heights, job->log);
+    }
+    if (result == HC_OK) {
+        glActiveTexture(GL_TEXTURE0 + HIGHEST_UNIT);
+        result = hc_gpu_texture(&b->highest, job->width, job->height, levels,
+                                relaxed ? NULL : job->heights, job->log);
+    }
+    if (result == HC_OK && !relaxed) {
+        result =
+            hc_gpu_fill_pyramid(b->gpu, b->highest, job->width, job->height, HC_MAXIMUM, job->log);
+    }
+    return result;
+}
+
+static hc_result bake(baking *b)
+{
+    hc_result result = load(b);
+    for (b->current = 0; b->current < b->count && result == HC_OK; b->current++) {
+        result = search(b);
+        result = result == HC_OK ? read_back(b) : result;
+    }
+    if (result == HC_OK) {
+        write_ratios(b);
+    }
+    glDeleteTextures(1, &b->best);
+    glDeleteTextures(1, &b->heights);
+    glDeleteTextures(1, &b->highest);
+    free(b->steepness);
+    return result;
+}
+
+hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field,
+                               const hc_cone_options *options, hc_log *log)
+{
+    const hc_cone_options given = options != NULL ? *options : (hc_cone_options){ 0 };
+    hc_cone_job           job;
+    hc_result             result = hc_cone_job_init(&job, ratios, field, &given, log);
+    if (result == HC_OK && (given.method == HC_METHOD_RING || given.method == HC_METHOD_GEMS)) {
+        result = hc_fail(log, HC_ERROR_UNSUPPORTED, "options.method %s is the CPU's alone",
+                         hc_method_name(given.method));
+    }
+    result = result == HC_OK ? hc_gpu_begin(gpu, log) : result;
+    if (result == HC_OK) {
+        baking b = {
+            .gpu = gpu, .job = &job, .method = given.method, .l2 = given.cones == HC_CONES_L2
+        };
+        plan(&b);
+        result = bake(&b);
+    }
+    if (result == HC_OK) {
+        const size_t count = (size_t)job.width * (size_t)job.height * (size_t)job.channels;
+        hc_limit_ratios(ratios, count, given.max_ratio);
+    }
+    return result;
+}
+
+/* ---- for whole maps ------------------------------------------------------------------------- */
+
+static hc_result cones_for_map(void *user, float *ratios, const hc_field *field,
+                               const hc_cone_options *options, hc_log *log)
+{
+    return hc_gpu_bake_cone_map(user, ratios, field, options, log);
+}
+
+static hc_result pyramid_for_map(void *user, hc_pyramid *pyramid, float *values,
+                                 const float *heights, int width, int height, hc_extreme extreme,
+                                 hc_log *log)
+{
+    return hc_gpu_bake_pyramid(user, pyramid, values, heights, width, height, extreme, log);
+}
+
+const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu)
+{
+    gpu->baker = (hc_map_baker){ .cones = cones_for_map, .pyramid = pyramid_for_map, .user = gpu };
+    return &gpu->baker;
+}

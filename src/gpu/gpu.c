@@ -1,0 +1,197 @@
+#include "gpu.h"
+
+#include "base/clock.h"
+#include "base/fail.h"
+#include "gl/program.h"
+
+#include <epoxy/gl.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { TRIAL_SIDE = 64, TRIALS = TRIAL_SIDE * TRIAL_SIDE, GROUP = 8 };
+
+/* ---- programs ------------------------------------------------------------------------------- */
+
+hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool l2, bool sided,
+                     hc_log *log)
+{
+    const hc_shader_text texts[] = { { "bake.comp", hc_shader_text_named("bake.comp") },
+                                     { NULL, NULL } };
+    unsigned            *kept    = &gpu->programs[shader][l2 ? 1 : 0][sided ? 1 : 0];
+    hc_result            result  = HC_OK;
+    if (*kept == 0) {
+        char head[128];
+        (void)snprintf(head, sizeof head,
+                       "#version 430 core\n#define HC_BAKE %d\n#define HC_L2 %d\n"
+                       "#define HC_SIDED %d\n",
+                       (int)shader, l2 ? 1 : 0, sided ? 1 : 0);
+        result = hc_gl_build_compute(kept, head, texts, log);
+    }
+    *program = *kept;
+    glUseProgram(*kept);
+    return result;
+}
+
+void hc_gpu_set_pair(unsigned program, const char *name, int x, int y)
+{
+    glUniform2i(glGetUniformLocation(program, name), x, y);
+}
+
+static unsigned groups(int first, int end)
+{
+    return (unsigned)((end - first + GROUP - 1) / GROUP);
+}
+
+static void dispatch(unsigned program, const int first[2], const int end[2], unsigned across,
+                     unsigned down)
+{
+    hc_gpu_set_pair(program, "u_first", first[0], first[1]);
+    hc_gpu_set_pair(program, "u_end", end[0], end[1]);
+    glDispatchCompute(across, down, 1);
+    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
+                    | GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glFinish();
+}
+
+/* One group, all of it beyond the last texel. */
+void hc_gpu_warm_up(unsigned program)
+{
+    static const int none[2] = { 0, 0 };
+    dispatch(program, none, none, 1, 1);
+}
+
+double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const int end[2])
+{
+    const double start = hc_clock_now();
+    dispatch(program, first, end, groups(first[0], end[0]), groups(first[1], end[1]));
+    const double seconds = hc_clock_now() - start;
+    gpu->seconds += seconds;
+    return seconds;
+}
+
+/* ---- textures ------------------------------------------------------------------------------- */
+
+hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
+                         hc_log *log)
+{
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    if (width > most || height > most) {
+        return hc_fail(log, HC_ERROR_LIMIT,
+                       "field of %d x %d: textures of this driver have at most %d texels a side; "
+                       "use cpu",
+                       width, height, most);
+    }
+    glGenTextures(1, texture);
+    glBindTexture(GL_TEXTURE_2D, *texture);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    glTexStorage2D(GL_TEXTURE_2D, levels, GL_R32F, width, height);
+    if (values != NULL) {
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, values);
+    }
+    return hc_gl_check("field", log);
+}
+
+/* ---- arithmetic ----------------------------------------------------------------------------- */
+
+/* Distances and their squares, as fields of all sizes have them, with all bits in use. */
+static void fill_trials(float trials[TRIALS])
+{
+    uint32_t bits = 1;
+    for (int i = 0; i < TRIALS; i++) {
+        bits      = bits * 1664525U + 1013904223U;
+        trials[i] = ldexpf(1.0F + (float)(bits >> 9) * 0x1p-23F, i % 48 - 40);
+    }
+}
+
+static bool same_weights(const float weights[TRIALS], const float trials[TRIALS], bool l2)
+{
+    for (int i = 0; i < TRIALS; i++) {
+        const float wanted = 1.0F / (l2 ? sqrtf(trials[i]) : trials[i]);
+        if (weights[i] != wanted) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static hc_result try_weights(hc_gpu *gpu, bool l2, hc_log *log)
+{
+    static const int first[2] = { 0, 0 }, end[2] = { TRIAL_SIDE, TRIAL_SIDE };
+    unsigned         textures[2] = { 0, 0 }, program;
+    float            trials[TRIALS], weights[TRIALS];
+    fill_trials(trials);
+    hc_result result = hc_gpu_use(gpu, &program, HC_GPU_ROUNDING, l2, false, log);
+    result           = result != HC_OK ? result
+                                       : hc_gpu_texture(&textures[0], TRIAL_SIDE, TRIAL_SIDE, 1, NULL, log);
+    result           = result != HC_OK ? result
+                                       : hc_gpu_texture(&textures[1], TRIAL_SIDE, TRIAL_SIDE, 1, trials, log);
+    if (result == HC_OK) {
+        glBindImageTexture(0, textures[0], 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+        glUniform1i(glGetUniformLocation(program, "u_heights"), 0);
+        (void)hc_gpu_dispatch(gpu, program, first, end);
+        glBindTexture(GL_TEXTURE_2D, textures[0]);
+        glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, weights);
+        result      = hc_gl_check("trial of arithmetic", log);
+        gpu->rounds = gpu->rounds && same_weights(weights, trials, l2);
+    }
+    glDeleteTextures(2, textures);
+    return result;
+}
+
+/* ---- making and ending ---------------------------------------------------------------------- */
+
+hc_result hc_gpu_begin(hc_gpu *gpu, hc_log *log)
+{
+    gpu->seconds = 0.0;
+    return hc_gl_use(&gpu->context, log);
+}
+
+hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log)
+{
+    *gpu         = NULL;
+    hc_gpu *made = calloc(1, sizeof *made);
+    if (made == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for a context");
+    }
+    made->rounds     = true;
+    hc_result result = hc_gl_open(&made->context, log);
+    if (result == HC_OK) {
+        (void)snprintf(made->name, sizeof made->name, "%s", (const char *)glGetString(GL_RENDERER));
+        result = try_weights(made, false, log);
+        result = result == HC_OK ? try_weights(made, true, log) : result;
+    }
+    if (result != HC_OK) {
+        hc_gpu_destroy(made);
+        return result;
+    }
+    *gpu = made;
+    return HC_OK;
+}
+
+/* With the context go its programs. */
+void hc_gpu_destroy(hc_gpu *gpu)
+{
+    if (gpu != NULL) {
+        hc_gl_close(&gpu->context);
+        free(gpu);
+    }
+}
+
+const char *hc_gpu_name(const hc_gpu *gpu)
+{
+    return gpu->name;
+}
+
+bool hc_gpu_rounds(const hc_gpu *gpu)
+{
+    return gpu->rounds;
+}
+
+double hc_gpu_seconds(const hc_gpu *gpu)
+{
+    return gpu->seconds;
+}

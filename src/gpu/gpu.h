@@ -1,0 +1,55 @@
+/* What baking on the GPU shares: the context, its programs, textures of one float. */
+#ifndef HC_GPU_GPU_H
+#define HC_GPU_GPU_H
+
+#include "gl/context.h"
+
+#include <heightcast/gpu.h>
+
+/* As HC_BAKE in bake.comp. */
+typedef enum hc_gpu_shader {
+    HC_GPU_PYRAMID = 1,
+    HC_GPU_BRUTE,
+    HC_GPU_EXACT,
+    HC_GPU_QUICK,
+    HC_GPU_FALLING,
+    HC_GPU_ROUNDING,
+    HC_GPU_SHADERS
+} hc_gpu_shader;
+
+enum { HC_GPU_NAME_MAX = 128 };
+
+struct hc_gpu {
+    hc_gl_context context;
+    hc_map_baker  baker;
+    char          name[HC_GPU_NAME_MAX];
+    bool          rounds; /* tests may say that it does not */
+    double        seconds;
+    unsigned      programs[HC_GPU_SHADERS][2][2]; /* by l2, sided; 0: not compiled yet */
+};
+
+/* Make the context the thread's, and set seconds to 0. */
+hc_result hc_gpu_begin(hc_gpu *gpu, hc_log *log);
+
+/* Compile the program, unless it is there, and use it. */
+hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool l2, bool sided,
+                     hc_log *log);
+
+/* A texture of one float; values: of level 0, or NULL. HC_ERROR_LIMIT, HC_ERROR_MEMORY. */
+hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
+                         hc_log *log);
+
+/* Level 0 is there: all above it. */
+hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
+                              hc_extreme extreme, hc_log *log);
+
+/* Drivers finish compiling when a program runs for the first time: have it done with what is bound. */
+void hc_gpu_warm_up(unsigned program);
+
+/* One dispatch over the texels first .. end - 1 of the program in use; waits, adds to seconds, and
+ * gives the seconds that it took. */
+double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const int end[2]);
+
+void hc_gpu_set_pair(unsigned program, const char *name, int x, int y);
+
+#endif

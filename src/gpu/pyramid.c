@@ -1,0 +1,70 @@
+/* Pyramids level by level, each from the one below it. */
+#include "gpu.h"
+
+#include "base/fail.h"
+
+#include <epoxy/gl.h>
+
+static int half(int side, int level)
+{
+    return side >> level > 1 ? side >> level : 1;
+}
+
+hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
+                              hc_extreme extreme, hc_log *log)
+{
+    static const int first[2] = { 0, 0 };
+    unsigned         program;
+    const hc_result  result = hc_gpu_use(gpu, &program, HC_GPU_PYRAMID, false, false, log);
+    if (result != HC_OK) {
+        return result;
+    }
+    hc_gpu_set_pair(program, "u_size", width, height);
+    glUniform1i(glGetUniformLocation(program, "u_minimum"), extreme == HC_MINIMUM);
+    for (int level = 1; level < hc_pyramid_levels(width, height); level++) {
+        const int end[2] = { half(width, level), half(height, level) };
+        glUniform1i(glGetUniformLocation(program, "u_level"), level);
+        glBindImageTexture(0, texture, level, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+        glBindImageTexture(1, texture, level - 1, GL_FALSE, 0, GL_READ_ONLY, GL_R32F);
+        if (level == 1) {
+            hc_gpu_warm_up(program);
+        }
+        (void)hc_gpu_dispatch(gpu, program, first, end);
+    }
+    return hc_gl_check("pyramid", log);
+}
+
+static void read_levels(const hc_pyramid *pyramid, unsigned texture)
+{
+    glBindTexture(GL_TEXTURE_2D, texture);
+    for (int level = 0; level < pyramid->levels; level++) {
+        glGetTexImage(GL_TEXTURE_2D, level, GL_RED, GL_FLOAT,
+                      hc_pyramid_level(pyramid, level, NULL, NULL));
+    }
+}
+
+hc_result hc_gpu_bake_pyramid(hc_gpu *gpu, hc_pyramid *pyramid, float *values, const float *heights,
+                              int width, int height, hc_extreme extreme, hc_log *log)
+{
+    unsigned  texture = 0;
+    hc_result result  = hc_gpu_begin(gpu, log);
+    *pyramid          = (hc_pyramid){ .values = values,
+                                      .width  = width,
+                                      .height = height,
+                                      .levels = hc_pyramid_levels(width, height) };
+    if (result == HC_OK && pyramid->levels == 0) {
+        result = hc_fail(log, HC_ERROR_ARGUMENT, "a pyramid of %d x %d samples", width, height);
+    }
+    if (result == HC_OK) {
+        result = hc_gpu_texture(&texture, width, height, pyramid->levels, heights, log);
+    }
+    if (result == HC_OK) {
+        result = hc_gpu_fill_pyramid(gpu, texture, width, height, extreme, log);
+    }
+    if (result == HC_OK) {
+        read_levels(pyramid, texture);
+        result = hc_gl_check("pyramid", log);
+    }
+    glDeleteTextures(1, &texture);
+    return result;
+}
