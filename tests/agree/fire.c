@@ -196,30 +196,42 @@ static void make_target(target *made, const agree_volley *volley, hc_trace_metho
     hc_tracer_tolerance(made->tracer, &made->scene.surface.rise, &made->scene.surface.reach);
 }
 
-/* All ways to ask give the same. */
+static void compare_alone(agree_score *score, const target *by, const hc_ray *ray,
+                          const hc_hit *among, bool any)
+{
+    hc_hit     alone;
+    const bool found = hc_trace_nearest(by->tracer, &alone, ray);
+    if (memcmp(&alone, among, sizeof alone) != 0 || any != found
+        || hc_trace_any(by->tracer, ray) != found) {
+        score->odd++;
+        complain(score, &by->scene, ray, (double)among->t,
+                 "among many is not what the other functions say; alone", (double)alone.t);
+    }
+}
+
+/* All ways to ask give the same. One ray of `alone` is asked for by itself, too. */
 static void compare_ways(agree_score *score, const target *by, const hc_ray *rays,
-                         const hc_hit *hits, int count)
+                         const hc_hit *hits, int count, int alone)
 {
     uint8_t any[BUNDLE];
     hc_trace_any_many(by->tracer, any, rays, (size_t)count);
     for (int i = 0; i < count; i++) {
-        hc_hit     alone;
-        const bool found = hc_trace_nearest(by->tracer, &alone, &rays[i]);
-        if (memcmp(&alone, &hits[i], sizeof alone) != 0 || any[i] != found
-            || hc_trace_any(by->tracer, &rays[i]) != found) {
+        if ((any[i] != 0) != (hits[i].t < INFINITY)) {
             score->odd++;
             complain(score, &by->scene, &rays[i], (double)hits[i].t,
-                     "among many is not what the other functions say; alone", (double)alone.t);
+                     "is not what is said about any hit,", (double)any[i]);
+        } else if (i % alone == 0) {
+            compare_alone(score, by, &rays[i], &hits[i], any[i] != 0);
         }
     }
 }
 
 static void fire_at(agree_score *score, const target *by, const hc_ray *rays, const float *equal,
-                    int count)
+                    int count, int alone)
 {
     hc_hit hits[BUNDLE];
     hc_trace_nearest_many(by->tracer, hits, rays, (size_t)count);
-    compare_ways(score, by, rays, hits, count);
+    compare_ways(score, by, rays, hits, count, alone);
     for (int i = 0; i < count; i++) {
         const bool found = hits[i].t < INFINITY;
         if (equal[i] == hits[i].t) { /* false for NAN */
@@ -249,7 +261,8 @@ static void fire_bundle(void *context, int item, int worker)
         equal[i] = volley->trust_equal ? (float)reference(scene, &rays[i], 0.0, &unused) : NAN;
     }
     for (int m = 0; m < volley->method_count; m++) {
-        fire_at(&all->scores[worker][m], &all->targets[m], rays, equal, b->count);
+        fire_at(&all->scores[worker][m], &all->targets[m], rays, equal, b->count,
+                volley->alone > 1 ? volley->alone : 1);
     }
 }
 

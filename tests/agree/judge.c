@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { RUN = 32, LANES = 16 };
 
@@ -17,12 +18,12 @@ typedef struct judge {
     int             channel, channels;
     int             first, step; /* rows judged */
     float          *ratios;
-    int             runs;       /* in a row                                                       */
+    const float    *claimed;
+    int             runs, bands; /* of RUN samples in a row; of RUN rows                          */
     float          *weight;     /* [row distance][column offset + width - 1]: 0 where none counts */
     float          *run_weight; /* largest of RUN offsets from that one on                        */
-    float          *row_weight; /* largest of the row distance, and of all larger ones            */
-    float          *run_top, *row_top;
-    float           top;
+    float          *far_weight; /* largest of the row distance, and of all larger ones            */
+    float          *run_top, *band_top;
     float          *best; /* rows of `width`, one a worker */
 } judge;
 
@@ -75,30 +76,30 @@ static void fill_weights(void *context, int rows, int worker)
 static void fill_tops(judge *j)
 {
     const int width = j->field->width;
+    for (int i = 0; i < j->bands * j->runs; i++) {
+        j->band_top[i] = 0.0F;
+    }
     for (int y = 0; y < j->field->height; y++) {
-        const float *row  = j->field->heights + (ptrdiff_t)y * width;
-        float       *tops = j->run_top + (ptrdiff_t)y * j->runs;
-        j->row_top[y]     = row[0];
+        const float *row   = j->field->heights + (ptrdiff_t)y * width;
+        float       *tops  = j->run_top + (ptrdiff_t)y * j->runs;
+        float       *above = j->band_top + (ptrdiff_t)(y / RUN) * j->runs;
         for (int run = 0; run < j->runs; run++) {
             tops[run] = row[run * RUN];
             for (int x = run * RUN; x < (run + 1) * RUN && x < width; x++) {
                 tops[run] = larger(tops[run], row[x]);
             }
-            j->row_top[y] = larger(j->row_top[y], tops[run]);
+            above[run] = larger(above[run], tops[run]);
         }
-        j->top = larger(j->top, j->row_top[y]);
     }
 }
 
-static void fill_row_weights(judge *j)
+static void fill_far_weights(judge *j)
 {
-    const int width       = j->field->width;
-    float     larger_ones = 0.0F;
-    for (int rows = j->field->height - 1; rows >= 0; rows--) {
-        for (int i = 0; i < 2 * width; i++) {
-            larger_ones = larger(larger_ones, j->weight[(ptrdiff_t)rows * 2 * width + i]);
-        }
-        j->row_weight[rows] = larger_ones;
+    const ptrdiff_t pitch = 2 * (ptrdiff_t)j->field->width;
+    const ptrdiff_t last  = (j->field->height - 1) * pitch;
+    memcpy(j->far_weight + last, j->run_weight + last, (size_t)pitch * sizeof *j->far_weight);
+    for (ptrdiff_t i = last - 1; i >= 0; i--) {
+        j->far_weight[i] = larger(j->run_weight[i], j->far_weight[i + pitch]);
     }
 }
 
@@ -124,61 +125,81 @@ static float scan(const float *others, const float *weights, int count, float he
     return best;
 }
 
-static float look_at_row(const judge *j, int row, int rows, int x, float height, float best)
+/* One texel against a run of samples, row by row of a band. */
+static float look_at_band(const judge *j, int band, int run, int y, int x, float best)
 {
-    const int    width  = j->field->width;
-    const float *others = j->field->heights + (ptrdiff_t)row * width;
-    const float *tops   = j->run_top + (ptrdiff_t)row * j->runs;
-    const float *from_x = j->weight + (ptrdiff_t)rows * 2 * width + width - 1 - x;
-    const float *run_x  = j->run_weight + (ptrdiff_t)rows * 2 * width + width - 1 - x;
-    for (int run = 0; run < j->runs; run++) {
-        const int first = run * RUN;
-        if ((tops[run] - height) * run_x[first] > best) {
-            const int count = first + RUN < width ? RUN : width - first;
-            best            = scan(others + first, from_x + first, count, height, best);
+    const int   width  = j->field->width;
+    const int   first  = run * RUN;
+    const int   count  = first + RUN < width ? RUN : width - first;
+    const int   end    = (band + 1) * RUN;
+    const int   last   = end < j->field->height ? end : j->field->height;
+    const bool  wraps  = (j->field->wrap & HC_WRAP_V) != 0;
+    const float height = j->field->heights[(ptrdiff_t)y * width + x];
+    for (int row = band * RUN; row < last; row++) {
+        const int       rows = nearest(row - y, j->field->height, wraps, j->sign_v);
+        const ptrdiff_t from = (ptrdiff_t)rows * 2 * width + width - 1 - x + first;
+        const float     top  = j->run_top[(ptrdiff_t)row * j->runs + run];
+        if (rows >= 0 && (top - height) * j->run_weight[from] > best) {
+            const float *others = j->field->heights + (ptrdiff_t)row * width + first;
+            best                = scan(others, j->weight + from, count, height, best);
         }
     }
     return best;
 }
 
-/* One row of samples against another, `rows` away. */
-static void compare_rows(const judge *j, float *best, int y, int row, int rows)
+/* Least distance of a row to those of a band, or -1 if none of them is asked for. */
+static int band_distance(const judge *j, int band, int y)
 {
-    const float *heights = j->field->heights + (ptrdiff_t)y * j->field->width;
-    const float  top     = j->row_top[row];
-    const float  weight  = j->row_weight[rows];
-    for (int x = 0; x < j->field->width; x++) {
-        if ((top - heights[x]) * weight > best[x]) {
-            best[x] = look_at_row(j, row, rows, x, heights[x], best[x]);
+    const bool wraps = (j->field->wrap & HC_WRAP_V) != 0;
+    int        least = -1;
+    for (int row = band * RUN; row < (band + 1) * RUN && row < j->field->height; row++) {
+        const int rows = nearest(row - y, j->field->height, wraps, j->sign_v);
+        least          = rows >= 0 && (least < 0 || rows < least) ? rows : least;
+    }
+    return least;
+}
+
+/* RUN texels of a row, from x on, against a run of samples of a band that is `rows` away. */
+static void compare(const judge *j, float *best, int x, int y, int band, int run, int rows)
+{
+    const int    width   = j->field->width;
+    const int    count   = x + RUN < width ? RUN : width - x;
+    const float *heights = j->field->heights + (ptrdiff_t)y * width + x;
+    const float *weights = j->far_weight + (ptrdiff_t)rows * 2 * width + width - 1 - x + run * RUN;
+    const float  top     = j->band_top[band * j->runs + run];
+    int          open    = 0;
+    for (int i = 0; i < count; i++) {
+        open += (top - heights[i]) * weights[-i] > best[x + i];
+    }
+    for (int i = 0; i < count && open > 0; i++) {
+        if ((top - heights[i]) * weights[-i] > best[x + i]) {
+            best[x + i] = look_at_band(j, band, run, y, x + i, best[x + i]);
+            open--;
         }
     }
 }
 
-static bool all_are_done(const judge *j, const float *best, int y, int rows)
+/* Less steep than what gives the ratio that is claimed, by eight units in the last place. */
+static float begin_at(const judge *j, ptrdiff_t texel)
 {
-    const float *heights = j->field->heights + (ptrdiff_t)y * j->field->width;
-    int          open    = 0;
-    for (int x = 0; x < j->field->width; x++) {
-        open += (j->top - heights[x]) * j->row_weight[rows] > best[x];
-    }
-    return open == 0;
+    const float slope = (1.0F - 0x1p-19F) / j->claimed[texel * j->channels + j->channel];
+    return slope > 0.0F ? slope : 0.0F;
 }
 
 static void judge_row(void *context, int item, int worker)
 {
-    const judge *j      = context;
-    const int    y      = j->first + item * j->step;
-    const int    width  = j->field->width;
-    const int    height = j->field->height;
-    const bool   wraps  = (j->field->wrap & HC_WRAP_V) != 0;
-    float       *best   = j->best + (ptrdiff_t)worker * width;
+    const judge *j     = context;
+    const int    y     = j->first + item * j->step;
+    const int    width = j->field->width;
+    float       *best  = j->best + (ptrdiff_t)worker * width;
     for (int x = 0; x < width; x++) {
-        best[x] = 0.0F;
+        best[x] = begin_at(j, (ptrdiff_t)y * width + x);
     }
-    for (int rows = 0; rows < height && !all_are_done(j, best, y, rows); rows++) {
-        for (int row = 0; row < height; row++) {
-            if (nearest(row - y, height, wraps, j->sign_v) == rows) {
-                compare_rows(j, best, y, row, rows);
+    for (int band = 0; band < j->bands; band++) {
+        const int rows = band_distance(j, band, y);
+        for (int run = 0; run < j->runs && rows >= 0; run++) {
+            for (int x = 0; x < width; x += RUN) {
+                compare(j, best, x, y, band, run, rows);
             }
         }
     }
@@ -202,34 +223,37 @@ static void search(judge *j)
     const size_t height    = (size_t)j->field->height;
     const int    threads   = hc_threads_resolve(0);
     j->runs                = (j->field->width + RUN - 1) / RUN;
+    j->bands               = (j->field->height + RUN - 1) / RUN;
     j->weight              = floats(height * 2 * width);
     j->run_weight          = floats(height * 2 * width);
-    j->row_weight          = floats(height);
+    j->far_weight          = floats(height * 2 * width);
     j->run_top             = floats(height * (size_t)j->runs);
-    j->row_top             = floats(height);
+    j->band_top            = floats((size_t)j->bands * (size_t)j->runs);
     j->best                = floats((size_t)threads * width);
     const hc_progress none = { .report = NULL };
     (void)hc_parallel_for(j->field->height, threads, fill_weights, j, none, NULL);
-    fill_row_weights(j);
+    fill_far_weights(j);
     fill_tops(j);
     const int judged = (j->field->height - j->first + j->step - 1) / j->step;
     (void)hc_parallel_for(judged, threads, judge_row, j, none, NULL);
     free(j->weight);
     free(j->run_weight);
-    free(j->row_weight);
+    free(j->far_weight);
     free(j->run_top);
-    free(j->row_top);
+    free(j->band_top);
     free(j->best);
 }
 
-void agree_judge_rows(float *ratios, const hc_field *field, hc_cones cones, int first, int step)
+void agree_judge_rows(float *ratios, const float *claimed, const hc_field *field, hc_cones cones,
+                      int first, int step)
 {
     judge j = { .field    = field,
                 .round    = cones == HC_CONES_L2,
                 .channels = hc_cones_channels(cones),
                 .first    = first,
                 .step     = step,
-                .ratios   = ratios };
+                .ratios   = ratios,
+                .claimed  = claimed };
     assert_true(cones != HC_CONES_ANISO);
     for (j.channel = 0; j.channel < j.channels; j.channel++) {
         if (cones == HC_CONES_QUAD) {

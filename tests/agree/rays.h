@@ -74,6 +74,7 @@ typedef struct agree_volley {
     hc_trace_method  methods[AGREE_METHODS_MAX];
     size_t           count; /* rays of each set */
     int              threads;
+    int              alone; /* of so many rays one is traced by itself too; 0: all */
     /* Hits whose t is that of the surface as it is, rounded, are right without the other two
      * surfaces: the reference orders the three, which others of these tests see to. */
     bool trust_equal;

@@ -18,7 +18,7 @@ static void compare(const char *name, hc_cones cones, hc_wrap wrap)
     float                *exact    = agree_bake(&field, &options);
     float                *judge    = malloc(agree_count(&field, cones) * sizeof *judge);
     const size_t          channels = (size_t)hc_cones_channels(cones);
-    agree_judge_rows(judge, &field, cones, FIRST, STEP);
+    agree_judge_rows(judge, exact, &field, cones, FIRST, STEP);
     for (size_t y = FIRST; y < SIDE; y += STEP) {
         const size_t row = y * SIDE * channels;
         const size_t at  = agree_first_difference(judge + row, exact + row, SIDE * channels);

@@ -104,6 +104,7 @@ static void fire_round(campaign *c, uint64_t seed)
             .cones        = agree_range(&random, 0, 1) == 0 ? HC_CONES_L1 : HC_CONES_QUAD,
             .method_count = SURE,
             .count        = RAYS_OF_A_SET,
+            .alone        = 4,
             .trust_equal  = true,
         };
         volley.options.surface = (hc_surface)agree_range(&random, 0, 1);
