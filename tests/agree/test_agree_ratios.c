@@ -132,7 +132,7 @@ static void check_map(const judged *j)
 /* Every `stride`-th small field. */
 static void check_fields(judged j, int stride)
 {
-    for (int i = (int)j.cones; i < agree_field_count(&agree_small); i += stride) {
+    for (int i = (int)j.cones; i < agree_field_count(&agree_small); i += stride * AGREE_STRIDE) {
         hc_field field = agree_field(&agree_small, i);
         j.field        = &field;
         j.kind         = agree_kind_of(i);

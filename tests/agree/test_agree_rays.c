@@ -48,7 +48,7 @@ static void check_scores(void)
 static void hard_fields(hc_surface surface)
 {
     uint64_t random = 21 + (uint64_t)surface;
-    for (int i = 0; i < agree_field_count(&agree_small); i += 5) {
+    for (int i = 0; i < agree_field_count(&agree_small); i += 5 * AGREE_STRIDE) {
         hc_field field = agree_field(&agree_small, i);
         /* Of heights far below the tolerance, rounding alone says whether a ray comes up. */
         const bool             decided = strcmp(agree_kind_of(i), "denormal rises") != 0;

@@ -84,7 +84,7 @@ static void edit_repeatedly(hc_field *field, float *heights, const char *kind,
 static void run(hc_cones cones, const agree_shapes *shapes, int edits, int stride)
 {
     uint64_t random = 99 + (uint64_t)cones;
-    for (int i = (int)cones; i < agree_field_count(shapes); i += stride) {
+    for (int i = (int)cones; i < agree_field_count(shapes); i += stride * AGREE_STRIDE) {
         const hc_cone_options options = { .cones     = cones,
                                           .threads   = 1 + i % 2,
                                           .max_ratio = i % 3 == 0 ? 1.0F : 0.0F };

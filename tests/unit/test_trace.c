@@ -398,6 +398,36 @@ static void reference_batches_are_the_reference(void **state)
                      HC_ERROR_CANCELLED);
 }
 
+/* Each component in turn is what no ray has. */
+static void what_is_no_ray_misses(void **state)
+{
+    (void)state;
+    static const float height = 0.5F;
+    const hc_field     field  = { .heights = &height, .width = 1, .height = 1 };
+    const float        bad[]  = { NAN, INFINITY, -INFINITY };
+    const hc_ray       good   = { { 0.5F, 0.5F, 1.0F }, 0.0F, { 0.0F, 0.0F, -1.0F }, INFINITY };
+    hc_tracer         *tracer;
+    hc_hit             hit;
+    assert_int_equal(hc_tracer_create(&tracer, &field, NULL, NULL), HC_OK);
+    assert_true(hc_trace_nearest(tracer, &hit, &good));
+    assert_true(hit.t == 0.5F);
+    for (int i = 0; i < 3 * 7; i++) {
+        const int k    = i % 7;
+        hc_ray    ray  = good;
+        float    *part = k == 6 ? &ray.tmin : k < 3 ? &ray.origin[k] : &ray.direction[k - 3];
+        *part          = bad[i / 7];
+        assert_false(hc_trace_nearest(tracer, &hit, &ray));
+        assert_true(isinf(hit.t));
+    }
+    hc_ray none       = good;
+    none.direction[2] = 0.0F;
+    assert_false(hc_trace_any(tracer, &none));
+    hc_ray backwards = good;
+    backwards.tmax   = -1.0F;
+    assert_false(hc_trace_any(tracer, &backwards));
+    hc_tracer_destroy(tracer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -416,6 +446,7 @@ int main(void)
         cmocka_unit_test(thin_spikes_are_lost_by_steps_and_by_nothing_else),
         cmocka_unit_test(batches_are_the_same_for_all_threads),
         cmocka_unit_test(reference_batches_are_the_reference),
+        cmocka_unit_test(what_is_no_ray_misses),
     };
     fill_fields();
     return cmocka_run_group_tests(tests, NULL, NULL);
