@@ -81,8 +81,10 @@ uniform bvec2 hc_wraps;
 uniform int   hc_step_count;  /* at most so many steps, in methods that count them */
 uniform int   hc_refinements; /* bisections; -1: one secant, -2: none              */
 
-/* Reads of textures so far, if you care. */
-int hc_fetch_count = 0;
+/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip and qdm), if
+ * you care. */
+int hc_fetch_count    = 0;
+int hc_crossing_count = 0;
 
 /* Set it where a ray may do with fewer steps than hc_step_count; 0: it may not. */
 int hc_step_limit = 0;
@@ -335,6 +337,7 @@ hc_found hc_march_safe(hc_path path)
         if (max(leave, open_) >= path.end) {
             break;
         }
+        hc_crossing_count += 1;
         ivec2 before = cell;
         if (open_ > leave) {
             s    = open_;
@@ -421,6 +424,7 @@ hc_found hc_march_maxmip(hc_path path)
             if (leave >= path.end) {
                 break;
             }
+            hc_crossing_count += 1;
             crossed = true;
             level   = min(level + 1, hc_levels - 1);
         }

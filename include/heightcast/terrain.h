@@ -71,15 +71,18 @@ typedef struct hc_terrain hc_terrain;
  * options  view: shaded, height, normal, depth, crossings or missed; top does not count. NULL or
  *          zero: shaded, by the CPU
  *
- * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range; HC_ERROR_UNSUPPORTED for
- * HC_BACKEND_GL. */
+ * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render, and
+ * HC_ERROR_UNSUPPORTED for steps and open sides. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);
 
 /* Draw what `camera` sees. Zero eye and target: hc_terrain_tour's fly at 0; fov 0: 60.
  *
- * The same bytes on every machine and for every number of threads. An eye under the ground sees
+ * The CPU gives the same bytes on every machine and for every number of threads, and draws for many
+ * callers at once. GL agrees with it but for rounding in float32 (docs/algorithms.md, section 22.6);
+ * the caller's thread has another context current afterwards, and a terrain draws for one caller at
+ * a time. An eye under the ground sees
  * only that. picture->figures: `entered` counts rays that come to the field's box, `within` those of
  * them that moved at most 16, 35 and 85 times from node to node (steps, with methods that do not
  * tell).

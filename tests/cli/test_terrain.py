@@ -201,6 +201,21 @@ class Terrain(Case):
         self.refused("render", "terrain", *tiles[:3], "hills.pgm", *out, code=USAGE,
                      says="tile [1, 1] is 24 x 17")
 
+    def test_gl_draws_the_same_or_says_why_not(self):
+        cpu = self.picture("--method", "maxmip", field=ELEVATIONS)
+        figures = self.render("--backend", "gl", field=ELEVATIONS)
+        if figures["backend"] == "gl":
+            self.assertEqual(figures["method"], "maxmip")
+            self.assertGreater(figures["mean_fetches"], figures["mean_crossings"])
+        else:
+            self.assertIn("the CPU draws", figures["warnings"][-1])
+        gl = read_picture(self.path("a.png").read_bytes())
+        odd = sum(abs(a - b) > 2 for x, y in zip(cpu[2], gl[2]) for a, b in zip(x, y))
+        self.assertLess(odd, 12)
+        figures = self.render("--backend", "gl", "--method", "fast")
+        self.assertEqual(figures["backend"], "cpu")
+        self.assertIn("the CPU draws", figures["warnings"][-1])
+
     def test_an_eye_under_the_ground_is_told(self):
         figures = self.render("--spacing", "20", "--eye", "200,-200,-50", "--at", "300,-200,-50")
         self.assertIn("under the ground", figures["warnings"][0])

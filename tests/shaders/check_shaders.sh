@@ -12,6 +12,7 @@ fi
 mkdir -p "$folder"
 compiled=0
 failed=0
+scene=relief
 
 head_of() {
     if [ "$1" = es ]; then
@@ -32,7 +33,7 @@ check() {
     fi
 }
 
-# fragment NAME LANGUAGE DEFINE...
+# fragment NAME LANGUAGE DEFINE...: what is drawn is $scene
 fragment() {
     local name=$1 language=$2 define
     shift 2
@@ -41,7 +42,7 @@ fragment() {
         for define in "$@"; do
             printf '#define %s\n' "$define"
         done
-        cat "$shaders/heightcast.glsl" "$shaders/relief.frag"
+        cat "$shaders/heightcast.glsl" "$shaders/$scene.frag"
     } >"$folder/$name"
 }
 
@@ -50,8 +51,10 @@ for language in core es; do
     check $language.vert vert
     for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
         RELAXED ROBUST QUICK; do
-        fragment $language-$method.frag $language "HC_METHOD HC_$method"
-        check $language-$method.frag frag
+        for scene in terrain relief; do
+            fragment $language-$scene-$method.frag $language "HC_METHOD HC_$method"
+            check $language-$scene-$method.frag frag
+        done
         if [ $language = core ]; then
             fragment gather-$method.frag core "HC_METHOD HC_$method" HC_GATHER
             check gather-$method.frag frag

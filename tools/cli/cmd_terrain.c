@@ -110,6 +110,7 @@ static void add_figures(totals *t, const hc_render_figures *f)
     t->sum.lost += f->lost;
     t->sum.made_up += f->made_up;
     t->sum.mean_steps += f->mean_steps * (double)f->entered;
+    t->sum.mean_fetches += f->mean_fetches * (double)f->entered;
     t->sum.mean_crossings += f->mean_crossings * (double)f->entered;
     t->sum.seconds += f->seconds;
     for (int i = 0; i < 3; i++) {
@@ -131,6 +132,9 @@ static void show_rays(hc_cli *cli, const hc_render_figures *f, hc_view view)
     if (view == HC_VIEW_MISSED) {
         hc_cli_number(cli, "lost", (double)f->lost, NULL);
         hc_cli_number(cli, "made_up", (double)f->made_up, NULL);
+    }
+    if (cli->settings.backend == HC_CLI_GL) {
+        hc_cli_number(cli, "mean_fetches", f->mean_fetches / entered, NULL);
     }
     hc_cli_number(cli, "seconds_drawing", f->seconds, NULL);
 }
@@ -226,30 +230,45 @@ static int draw_frames(hc_cli *cli, totals *t, hc_picture *picture, const hc_ter
     return HC_CLI_DONE;
 }
 
+/* Where there is no OpenGL the CPU draws, as long as it may. */
+static hc_result make(hc_terrain **terrain, hc_cli *cli, const hc_terrain_scene *scene)
+{
+    hc_cli_settings  *settings = &cli->settings;
+    hc_render_options options  = { .view     = view_of(settings),
+                                   .backend  = settings->backend == HC_CLI_GL ? HC_BACKEND_GL
+                                                                              : HC_BACKEND_CPU,
+                                   .threads  = settings->threads,
+                                   .progress = hc_cli_progress(cli) };
+    hc_cli_phase(cli, "build");
+    hc_result result = hc_terrain_create(terrain, scene, &options, &cli->log);
+    if (result == HC_ERROR_UNSUPPORTED && settings->backend == HC_CLI_GL) {
+        hc_cli_warn(cli, "%s; the CPU draws", cli->log.text);
+        settings->backend = HC_CLI_CPU;
+        options.backend   = HC_BACKEND_CPU;
+        result            = hc_terrain_create(terrain, scene, &options, &cli->log);
+    }
+    hc_cli_phase(cli, NULL);
+    return result;
+}
+
 static int draw(hc_cli *cli, const hc_cli_landscape *landscape, const hc_cli_route *route)
 {
-    const hc_cli_settings  *settings = &cli->settings;
-    const hc_cli_size       size     = settings->size;
-    const hc_view           view     = view_of(settings);
-    const hc_render_options options  = { .view     = view,
-                                         .threads  = settings->threads,
-                                         .progress = hc_cli_progress(cli) };
-    hc_picture              picture  = { .width  = size.width > 0 ? size.width : WIDTH,
-                                         .height = size.width > 0 ? size.height : HEIGHT };
-    totals                  t        = { .frames = 0 };
-    hc_terrain             *terrain  = NULL;
-    hc_cli_phase(cli, "build");
-    hc_result result = hc_terrain_create(&terrain, &landscape->scene, &options, &cli->log);
-    hc_cli_phase(cli, NULL);
-    int code = result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
-    if (code == HC_CLI_DONE && !hc_cli_take_picture(&picture, settings->render.depth_out != NULL)) {
+    const hc_cli_size size    = cli->settings.size;
+    hc_picture        picture = { .width  = size.width > 0 ? size.width : WIDTH,
+                                  .height = size.width > 0 ? size.height : HEIGHT };
+    totals            t       = { .frames = 0 };
+    hc_terrain       *terrain = NULL;
+    const hc_result   result  = make(&terrain, cli, &landscape->scene);
+    int               code    = result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+    if (code == HC_CLI_DONE
+        && !hc_cli_take_picture(&picture, cli->settings.render.depth_out != NULL)) {
         code = hc_cli_fail_memory(cli);
     }
     if (code == HC_CLI_DONE) {
         code = draw_frames(cli, &t, &picture, terrain, route);
     }
     if (code == HC_CLI_DONE) {
-        show(cli, terrain, &picture, view, &t);
+        show(cli, terrain, &picture, view_of(&cli->settings), &t);
     }
     free(picture.depth);
     free(picture.rgb);
@@ -275,7 +294,10 @@ int hc_cli_run_terrain(hc_cli *cli)
     hc_cli_landscape landscape;
     hc_cli_route     route;
     int              code = check_meaning(cli);
-    code                  = code == HC_CLI_DONE ? check_outputs(cli) : code;
+    if (cli->settings.backend == HC_CLI_GL && !hc_cli_given(&cli->settings, "method")) {
+        cli->settings.rays.method = HC_TRACE_MAXMIP; /* fast is the CPU's alone */
+    }
+    code = code == HC_CLI_DONE ? check_outputs(cli) : code;
     if (code != HC_CLI_DONE) {
         return code;
     }

@@ -35,8 +35,8 @@ static void begin_texture(unsigned *texture, int unit, int levels)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, levels - 1);
 }
 
-hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int width,
-                               int height, int channels, const char *what, hc_log *log)
+hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int width, int height,
+                          int channels, const char *what, hc_log *log)
 {
     static const GLenum inner[] = { 0, GL_R32F, 0, GL_RGB32F, GL_RGBA32F };
     static const GLenum outer[] = { 0, GL_RED, 0, GL_RGB, GL_RGBA };

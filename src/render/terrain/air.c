@@ -40,10 +40,15 @@ void hc_sky_colour(double rgb[3], const hc_terrain *terrain, const double direct
     }
 }
 
+double hc_haze_top(const hc_terrain *terrain)
+{
+    return terrain->high[2] + HAZE_ABOVE * terrain->side;
+}
+
 /* How much of a ray lies in the haze, which ends above the terrain. */
 static double way_in_haze(const hc_terrain *terrain, const hc_ray *ray, double distance)
 {
-    const double top  = terrain->high[2] + HAZE_ABOVE * terrain->side - (double)ray->origin[2];
+    const double top  = hc_haze_top(terrain) - (double)ray->origin[2];
     const double rise = (double)ray->direction[2];
     if (top < 0.0) {
         return rise < 0.0 ? fmax(distance - top / rise, 0.0) : 0.0;

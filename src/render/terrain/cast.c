@@ -62,10 +62,16 @@ static void cast_to_sun(const scratch *s, const job *j, int count)
 
 /* ---- pixels -------------------------------------------------------------------------------- */
 
+void hc_terrain_add(hc_pixel *pixel, const hc_terrain *terrain, const hc_eye *eye,
+                    const hc_sample *sample, const double direction[3])
+{
+    const float slack = terrain->exact != NULL ? (float)terrain->slack : -1.0F;
+    hc_pixel_add(pixel, sample, hc_dot(direction, eye->forward), slack);
+}
+
 static void add(const scratch *s, const job *j, piece p)
 {
     const hc_terrain *terrain = j->terrain;
-    const float       slack   = terrain->exact != NULL ? (float)terrain->slack : -1.0F;
     hc_pixel         *pixels  = &j->pixels[(size_t)p.row * (size_t)j->eye->width];
     for (int i = 0; i < p.count; i++) {
         const hc_glance glance = { s->rays[i], s->hits[i] };
@@ -78,8 +84,8 @@ static void add(const scratch *s, const job *j, piece p)
         if (terrain->exact != NULL) {
             sample.exact = s->exact[i].t;
         }
-        hc_pixel_add(&pixels[(p.first + i) / j->eye->samples], &sample,
-                     hc_dot(direction, j->eye->forward), slack);
+        hc_terrain_add(&pixels[(p.first + i) / j->eye->samples], terrain, j->eye, &sample,
+                       direction);
     }
 }
 
@@ -141,6 +147,11 @@ static void release(scratch *s)
     free(s->exact);
     free(s->to_sun);
     free(s->dark);
+}
+
+double hc_terrain_footprint(const hc_eye *eye)
+{
+    return eye->parallel ? 0.0 : 2.0 * sqrt(hc_dot(eye->right, eye->right)) / eye->width;
 }
 
 hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_eye *eye,

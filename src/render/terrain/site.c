@@ -123,7 +123,7 @@ static void resolve_spacing(hc_terrain_scene *scene)
  * samples there, texel registration half a sample from there. */
 static void set_sides(double *low, double *high, double spacing, double step, bool grid)
 {
-    const double first = grid && step < 1.0 ? 0.0 : -0.5 * spacing;
+    const double first = grid ? 0.0 : -0.5 * spacing;
     *low += fmin(first, first + spacing / step);
     *high += fmax(first, first + spacing / step);
 }
@@ -179,14 +179,12 @@ hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
     CHECK(hc_field_check(&scene->field, log));
     CHECK(check_scene(scene, log));
     CHECK(check_options(&terrain->options, log));
-    if (terrain->options.backend == HC_BACKEND_GL) {
-        return hc_fail(log, HC_ERROR_UNSUPPORTED, "terrain is drawn by the CPU alone");
-    }
     hc_trace_options *trace = &terrain->scene.trace;
     if (trace->steps == 0) {
         trace->steps =
             trace->method == HC_TRACE_CONE_LOOP ? CONE_STEPS : hc_trace_method_steps(trace->method);
     }
+    trace->refinements = trace->refinements == 0 ? HC_REFINEMENTS_DEFAULT : trace->refinements;
     resolve_heights(&terrain->scene);
     resolve_spacing(&terrain->scene);
     place(terrain);

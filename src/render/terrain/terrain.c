@@ -1,6 +1,8 @@
 /* From a scene and a camera to a picture. */
 #include "terrain.h"
 
+#include "../gl/landscape.h"
+
 #include "../check.h"
 #include "../stage.h"
 
@@ -59,6 +61,9 @@ hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
     if (result == HC_OK) {
         result = build(*terrain, log);
     }
+    if (result == HC_OK && (*terrain)->options.backend == HC_BACKEND_GL) {
+        result = hc_terrain_gl_make(&(*terrain)->gl, *terrain, log);
+    }
     if (result != HC_OK) {
         hc_terrain_destroy(*terrain);
         *terrain = NULL;
@@ -69,6 +74,7 @@ hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
 void hc_terrain_destroy(hc_terrain *terrain)
 {
     if (terrain != NULL) {
+        hc_terrain_gl_free(terrain->gl);
         hc_tracer_destroy(terrain->tracer);
         hc_tracer_destroy(terrain->exact);
         free(terrain);
@@ -129,6 +135,18 @@ static hc_eye aim(const hc_terrain *terrain, const hc_camera *camera, const hc_p
     return hc_eye_of(&aimed, picture->width, picture->height);
 }
 
+static hc_result fill(hc_pixel *pixels, double *seconds, const hc_terrain *terrain,
+                      const hc_eye *eye, hc_log *log)
+{
+    if (terrain->gl != NULL) {
+        return hc_terrain_gl_draw(pixels, seconds, terrain, eye, log);
+    }
+    const double    start  = hc_clock_now();
+    const hc_result result = hc_terrain_cast(pixels, terrain, eye, log);
+    *seconds               = hc_clock_now() - start;
+    return result;
+}
+
 hc_result hc_terrain_draw(hc_picture *picture, const hc_terrain *terrain, const hc_camera *camera,
                           hc_log *log)
 {
@@ -141,9 +159,7 @@ hc_result hc_terrain_draw(hc_picture *picture, const hc_terrain *terrain, const 
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for a picture of %d x %d pixels",
                        picture->width, picture->height);
     }
-    const double    start    = hc_clock_now();
-    const hc_result result   = hc_terrain_cast(pixels, terrain, &eye, log);
-    picture->figures.seconds = hc_clock_now() - start;
+    const hc_result result = fill(pixels, &picture->figures.seconds, terrain, &eye, log);
     if (result == HC_OK) {
         hc_pixels_count(&picture->figures, pixels, count, eye.samples);
         hc_terrain_finish(picture, terrain, pixels, eye.samples);

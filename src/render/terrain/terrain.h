@@ -8,15 +8,16 @@
 #include "../sums.h"
 
 struct hc_terrain {
-    hc_terrain_scene  scene; /* defaults resolved */
-    hc_render_options options;
-    hc_placement      placement;
-    double            low[3], high[3]; /* corners of the box                             */
-    double            side;            /* the longer one, in the world                   */
-    hc_tracer        *tracer, *exact;  /* exact: for views that compare, else NULL       */
-    double            sun[3];          /* unit                                           */
-    double            shadow_slip; /* a shadow's cause lies at least so far before the lit point */
-    double            slack;       /* hits farther from the exact ones are wrong         */
+    hc_terrain_scene      scene; /* defaults resolved */
+    hc_render_options     options;
+    hc_placement          placement;
+    double                low[3], high[3]; /* corners of the box                             */
+    double                side;            /* the longer one, in the world                   */
+    hc_tracer            *tracer, *exact;  /* exact: for views that compare, else NULL       */
+    struct hc_terrain_gl *gl;              /* NULL: the CPU draws                            */
+    double                sun[3];          /* unit                                           */
+    double shadow_slip; /* a shadow's cause lies at least so far before the lit point */
+    double slack;       /* hits farther from the exact ones are wrong         */
 };
 
 /* Check a scene and resolve it: all members but the tracers. */
@@ -43,14 +44,23 @@ void hc_ground_colour(double rgb[3], const hc_terrain *terrain, const hc_hit *hi
 
 /* Colour of the sky, and of the air between the eye and what it sees. direction: unit. */
 void hc_sky_colour(double rgb[3], const hc_terrain *terrain, const double direction[3]);
-void hc_haze(double rgb[3], const hc_terrain *terrain, const hc_ray *ray, double distance);
+/* The haze ends at this z. */
+double hc_haze_top(const hc_terrain *terrain);
+void   hc_haze(double rgb[3], const hc_terrain *terrain, const hc_ray *ray, double distance);
 
 /* The terrain is a block: walls end so far below height 0, in heights. */
 #define HC_TERRAIN_BASE 0.25
 
+/* Width of a pixel at distance 1. */
+double hc_terrain_footprint(const hc_eye *eye);
+
 /* Fill zeroed pixels on all threads. */
 hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_eye *eye,
                           hc_log *log);
+
+/* Add what a ray saw; direction: of the ray. */
+void hc_terrain_add(hc_pixel *pixel, const hc_terrain *terrain, const hc_eye *eye,
+                    const hc_sample *sample, const double direction[3]);
 
 /* Colours of the terrain's view, and depths. */
 void hc_terrain_finish(hc_picture *picture, const hc_terrain *terrain, const hc_pixel *pixels,

@@ -1,0 +1,320 @@
+/* terrain.frag: a landscape, a ray for each pixel and one from there to the sun. Stands behind
+ * heightcast.glsl, whose marchers it uses, and draws what heightcast/terrain.h describes; functions
+ * are named as in src/render/terrain and stand in its files' order: air, ground, see.
+ *
+ * It shows how to use those marchers for terrain: any eye (main), the sun's shadow (in_shadow). All is in texture space, where the CPU has put the eye; t of a
+ * ray is the distance in the world, since the field's place is affine. */
+
+/* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
+uniform vec3  u_forward, u_right, u_down;
+uniform bool  u_orthographic;
+uniform vec2  u_picture;     /* pixels */
+uniform float u_first_row;   /* rows are drawn from the top, some at a time */
+uniform vec2  u_sample;      /* where in the pixel, 0 .. 1, y down */
+uniform vec3  u_place;       /* of the eye, in texture space */
+uniform vec3  u_scale;       /* texture space per world unit */
+uniform float u_footprint;   /* width of a pixel at distance 1 */
+
+uniform vec3  u_sun;        /* unit, towards it */
+uniform bool  u_shadows;
+uniform float u_shadow_slip; /* in the world */
+uniform float u_haze;        /* in the world */
+uniform float u_haze_top;    /* of the eye, below where haze ends, in the world */
+uniform vec2  u_spacing;     /* world units between samples */
+uniform int   u_ground;      /* HC_GROUND, below */
+uniform bool  u_blocky;
+
+uniform sampler2D u_image;
+
+layout(location = 0) out vec4 o_light;  /* linear rgb; distance along the ray, HC_MISS: nothing */
+layout(location = 1) out vec4 o_normal; /* xyz in the world; height of the hit */
+layout(location = 2) out vec4 o_counts; /* steps, texels read, came to the box: 1 + crossings, ran
+                                           out of steps */
+
+#define NATURAL 0
+#define ELEVATION 1
+#define SLOPE 2
+#define IMAGE 3
+
+/* Walls end so far below height 0. */
+#define BASE 0.25
+
+/* ---- air ------------------------------------------------------------------------------------- */
+
+const vec3 ZENITH  = vec3(0.09, 0.22, 0.52);
+const vec3 HORIZON = vec3(0.56, 0.68, 0.82);
+const vec3 GLOW    = vec3(0.95, 0.72, 0.42);
+
+float squared(float x, int times)
+{
+    for (int i = 0; i < times; i++) {
+        x *= x;
+    }
+    return x;
+}
+
+vec3 air_colour(vec3 direction)
+{
+    float towards = max(dot(direction, u_sun), 0.0);
+    return HORIZON + 0.35 * squared(towards, 2) * (GLOW - 0.5 * HORIZON);
+}
+
+vec3 sky_colour(vec3 direction)
+{
+    float deep    = 1.0 - squared(1.0 - clamp(direction.z, 0.0, 1.0), 2);
+    float towards = max(dot(direction, u_sun), 0.0);
+    float disc    = towards > 0.99996 ? 12.0 : 0.0;
+    return mix(air_colour(direction), ZENITH, deep)
+           + GLOW * (0.25 * squared(towards, 5) + 0.7 * squared(towards, 10) + disc);
+}
+
+/* How much of a ray lies in the haze; top: where it ends, above the ray's origin. */
+float way_in_haze(float top, float rise, float distance_)
+{
+    if (top < 0.0) {
+        return rise < 0.0 ? max(distance_ - top / rise, 0.0) : 0.0;
+    }
+    return rise > 0.0 ? min(distance_, top / rise) : distance_;
+}
+
+vec3 haze(vec3 colour, vec3 direction, float top, float distance_)
+{
+    float way = way_in_haze(top, direction.z, distance_);
+    return mix(air_colour(direction), colour, squared(1.0 / (1.0 + way / (8.0 * u_haze)), 3));
+}
+
+/* ---- ground: speckles ------------------------------------------------------------------------ */
+
+#define ROUGHNESS 0.05
+
+/* 0 .. 1, of a point of a grid. */
+float random_at(ivec2 place, uint octave)
+{
+    uint h = uint(place.x) * 0x9E3779B1u ^ uint(place.y) * 0x85EBCA77u ^ octave * 0xC2B2AE3Du;
+    h      = (h ^ (h >> 15)) * 0x2C1B3C6Du;
+    h      = (h ^ (h >> 12)) * 0x297A2D39u;
+    return float((h ^ (h >> 15)) >> 8) / 16777216.0;
+}
+
+/* Smooth from point to point: slope along both axes, and a value of -1 .. 1. */
+vec3 ripple(vec2 place, uint octave)
+{
+    ivec2 cell  = ivec2(floor(place));
+    vec2  a     = place - vec2(cell);
+    vec2  f     = a * a * (3.0 - 2.0 * a);
+    float p     = random_at(cell, octave);
+    float q     = random_at(cell + ivec2(1, 0), octave) - p;
+    float r     = random_at(cell + ivec2(0, 1), octave) - p;
+    float twist = random_at(cell + 1, octave) - p - q - r;
+    vec2  slope = 12.0 * a * (1.0 - a) * (vec2(q, r) + twist * f.yx);
+    return vec3(slope, 2.0 * (p + q * f.x + r * f.y + twist * f.x * f.y) - 1.0);
+}
+
+/* Ripples of rising frequency; those that a pixel cannot show are left out smoothly. All in
+ * samples. */
+vec3 speckle(vec2 place, float footprint)
+{
+    vec3  sum    = vec3(0.0);
+    float size   = 0.5;
+    float length_ = 4.0;
+    for (uint octave = 0u; octave < 8u; octave++) {
+        float seen = clamp(length_ / max(footprint, 1e-9) - 1.0, 0.0, 1.0);
+        if (seen <= 0.0) {
+            break;
+        }
+        sum += seen * vec3(vec2(ROUGHNESS), size) * ripple(place / length_, octave);
+        length_ *= 0.4;
+        size *= 0.8;
+    }
+    return sum;
+}
+
+/* ---- ground: colours ------------------------------------------------------------------------- */
+
+const vec4 NATURAL_STOPS[6] =
+    vec4[6](vec4(0.120, 0.150, 0.048, 0.00), vec4(0.095, 0.125, 0.040, 0.14),
+            vec4(0.046, 0.078, 0.028, 0.34), vec4(0.064, 0.088, 0.032, 0.62),
+            vec4(0.170, 0.145, 0.075, 0.82), vec4(0.300, 0.275, 0.240, 1.00));
+const vec4 MAP_STOPS[6] =
+    vec4[6](vec4(0.08, 0.22, 0.10, 0.00), vec4(0.26, 0.42, 0.14, 0.20),
+            vec4(0.62, 0.54, 0.22, 0.45), vec4(0.36, 0.20, 0.10, 0.70),
+            vec4(0.34, 0.30, 0.28, 0.88), vec4(0.85, 0.86, 0.88, 1.00));
+/* At tangents of the slope. */
+const vec4 SLOPE_STOPS[6] =
+    vec4[6](vec4(0.05, 0.25, 0.10, 0.00), vec4(0.30, 0.42, 0.06, 0.25),
+            vec4(0.66, 0.48, 0.05, 0.60), vec4(0.55, 0.05, 0.03, 1.00),
+            vec4(0.25, 0.03, 0.32, 2.00), vec4(0.25, 0.03, 0.32, 3.00));
+const vec3 ROCK = vec3(0.215, 0.190, 0.165);
+
+vec3 along_stops(vec4 stops[6], float at)
+{
+    int i = 0;
+    while (i < 4 && at > stops[i + 1].a) {
+        i++;
+    }
+    float share = clamp((at - stops[i].a) / (stops[i + 1].a - stops[i].a), 0.0, 1.0);
+    return mix(stops[i].rgb, stops[i + 1].rgb, share);
+}
+
+float steepness(vec3 normal)
+{
+    return length(normal.xy) / max(normal.z, 1e-6);
+}
+
+/* The normal is bent by what is too small for the samples. */
+vec3 natural(vec3 place, inout vec3 normal, float footprint)
+{
+    vec3  grain  = speckle(place.xy * hc_steps, footprint / min(u_spacing.x, u_spacing.y));
+    float bare   = clamp((steepness(normal) + 0.22 * grain.z - 0.55) / 0.35, 0.0, 1.0);
+    vec3  colour = mix(along_stops(NATURAL_STOPS, place.z + 0.14 * grain.z), ROCK, bare);
+    normal       = normalize(normal + vec3(-grain.x, grain.y, 0.0) * normal.z);
+    return colour * (1.0 + 0.45 * grain.z);
+}
+
+vec3 image_texel(ivec2 texel)
+{
+    return texelFetch(u_image, clamp(texel, ivec2(0), textureSize(u_image, 0) - 1), 0).rgb;
+}
+
+vec3 draped(vec2 uv)
+{
+    vec2  place = uv * vec2(textureSize(u_image, 0)) - (u_blocky ? 0.0 : 0.5);
+    ivec2 cell  = ivec2(floor(place));
+    vec2  f     = u_blocky ? vec2(0.0) : place - vec2(cell);
+    return mix(mix(image_texel(cell), image_texel(cell + ivec2(1, 0)), f.x),
+               mix(image_texel(cell + ivec2(0, 1)), image_texel(cell + ivec2(1, 1)), f.x), f.y);
+}
+
+/* Of the samples on the field's posts: 0, else half a step. */
+float first_sample(void)
+{
+    return HC_METHOD == HC_QDM ? hc_zero.x + 0.5 : hc_zero.x;
+}
+
+/* The nearest sample instead of what lies between. */
+vec3 snapped(vec3 place)
+{
+    float half_  = first_sample();
+    ivec2 sample_ = clamp(ivec2(floor(place.xy * hc_steps - half_ + 0.5)), ivec2(0), hc_size - 1);
+    return vec3((vec2(sample_) + half_) / hc_steps, hc_sample(sample_));
+}
+
+vec3 ground_colour(vec3 place, inout vec3 normal, float footprint)
+{
+    vec3 at = u_blocky ? snapped(place) : place;
+    switch (u_ground) {
+    case NATURAL: return natural(at, normal, footprint);
+    case ELEVATION: return along_stops(MAP_STOPS, at.z);
+    case SLOPE: return along_stops(SLOPE_STOPS, steepness(normal));
+    case IMAGE: return draped(place.xy);
+    default: return vec3(0.3, 0.29, 0.27);
+    }
+}
+
+/* ---- see ------------------------------------------------------------------------------------- */
+
+const vec3 SUNLIGHT   = vec3(2.75, 2.40, 1.90);
+const vec3 SKYLIGHT   = vec3(0.26, 0.34, 0.50);
+const vec3 BOUNCED    = vec3(0.14, 0.13, 0.10);
+const vec3 CUT_GROUND = vec3(0.16, 0.12, 0.085);
+
+bool is_cut(hc_hit hit)
+{
+    bool faces = HC_METHOD == HC_QDM;
+    return (hit.flags & HC_INSIDE) != 0 || ((hit.flags & HC_SIDE) != 0 && !faces);
+}
+
+/* A vector of texture space that is across a surface, in the world. */
+vec3 across(vec3 normal)
+{
+    return normalize(normal * u_scale);
+}
+
+/* The wall the hit is on is the one it is nearest to: of the field, or of a sample's top. It faces
+ * the ray. */
+vec3 wall_normal(vec3 place, vec3 along)
+{
+    vec2 at   = place.xy * hc_steps - hc_zero;
+    vec2 away = HC_METHOD == HC_QDM ? abs(at - floor(at + 0.5))
+                                    : min(abs(at - hc_low()), abs(at - hc_high()));
+    return across(away.x <= away.y ? vec3(along.x > 0.0 ? -1.0 : 1.0, 0.0, 0.0)
+                                   : vec3(0.0, along.y > 0.0 ? -1.0 : 1.0, 0.0));
+}
+
+vec3 normal_at(hc_hit hit, vec3 along)
+{
+    if ((hit.flags & HC_SIDE) != 0) {
+        return wall_normal(hit.place, along);
+    }
+    bool flat_  = u_blocky || is_cut(hit) || HC_METHOD == HC_QDM;
+    vec2 slopes = flat_ ? hc_patch_slopes(hit.place.xy) : hc_smooth_slopes(hit.place.xy);
+    return across(vec3(-slopes, 1.0));
+}
+
+/* How far it is from a point to where the field's box ends, towards the sun. */
+float way_out(vec3 place, vec3 along)
+{
+    float up   = along.z > 0.0 ? (1.0 - place.z) / along.z : HC_MISS;
+    float left = hc_reaches(place.x, along.x, along.x > 0.0 ? 1.0 : 0.0);
+    float ahead = hc_reaches(place.y, along.y, along.y > 0.0 ? 1.0 : 0.0);
+    return max(min(up, min(left, ahead)), 0.0);
+}
+
+/* The ray from the sun to a hit, which ends before it. */
+bool in_shadow(vec3 place)
+{
+    vec3  along = u_sun * u_scale;
+    float away  = way_out(place, along) + u_shadow_slip;
+    return hc_nearest(place + away * along, -along, away - u_shadow_slip).t < HC_MISS;
+}
+
+vec3 light(vec3 colour, vec3 normal, bool lit)
+{
+    float facing = lit ? max(dot(normal, u_sun), 0.0) : 0.0;
+    float open_  = 0.5 + 0.5 * normal.z;
+    return colour * (SUNLIGHT * facing + SKYLIGHT * open_ + BOUNCED * (1.0 - open_));
+}
+
+vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, float top)
+{
+    bool dark   = dot(normal, u_sun) > 0.0 && u_shadows && in_shadow(hit.place);
+    vec3 colour = is_cut(hit) ? CUT_GROUND
+                              : ground_colour(hit.place, normal, u_footprint * hit.t);
+    return haze(light(colour, normal, !dark), direction, top, hit.t);
+}
+
+/* ---- pixels ---------------------------------------------------------------------------------- */
+
+/* The field has no end below, its picture does. */
+hc_hit look(vec3 place, vec3 along)
+{
+    hc_hit hit = hc_nearest(place, along, 1e30);
+    if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
+        hit.t = HC_MISS;
+    }
+    return hit;
+}
+
+void main(void)
+{
+    vec2   pixel     = gl_FragCoord.xy - 0.5 + vec2(0.0, u_first_row) + u_sample;
+    vec2   centred   = 2.0 * pixel / u_picture - 1.0;
+    vec3   moved     = centred.x * u_right + centred.y * u_down;
+    vec3   shift     = u_orthographic ? moved : vec3(0.0);
+    vec3   direction = u_orthographic ? u_forward : normalize(u_forward + moved);
+    vec3   along     = direction * u_scale;
+    hc_hit hit       = look(u_place + shift * u_scale, along);
+    float  fetches   = float(hc_fetch_count);
+    int    crossings = hc_crossing_count > 0 ? hc_crossing_count : hit.steps;
+    bool   entered   = hit.t < HC_MISS || hit.steps > 0;
+    bool   seen      = hit.t < HC_MISS;
+    vec3   normal    = seen ? normal_at(hit, along) : vec3(0.0);
+    vec3   colour    = sky_colour(direction);
+    if (seen) {
+        colour = see_ground(hit, normal, direction, u_haze_top - shift.z);
+    }
+    o_light      = vec4(colour, hit.t);
+    o_normal     = vec4(normal, hit.place.z);
+    o_counts     = vec4(float(hit.steps), fetches, entered ? 1.0 + float(crossings) : 0.0,
+                        float((hit.flags & HC_UNCONVERGED) != 0));
+}

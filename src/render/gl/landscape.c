@@ -1,0 +1,211 @@
+#include "landscape.h"
+
+#include "../stage.h"
+#include "bands.h"
+#include "upload.h"
+
+#include "gl/context.h"
+
+#include <epoxy/gl.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, TEXTURES };
+
+struct hc_terrain_gl {
+    hc_gl_context context;
+    unsigned      textures[TEXTURES];
+    unsigned      program, exact; /* exact: 0 unless the view compares */
+};
+
+/* ---- making -------------------------------------------------------------------------------- */
+
+static hc_result check_method(const hc_terrain *terrain, hc_log *log)
+{
+    const hc_trace_options *trace = &terrain->scene.trace;
+    if (hc_gl_method(trace->method) == 0) {
+        return hc_fail(log, HC_ERROR_UNSUPPORTED,
+                       "scene.trace.method is %s, which is the CPU's alone",
+                       hc_trace_method_name(trace->method));
+    }
+    return trace->surface == HC_SURFACE_BILINEAR && !trace->open_sides
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_UNSUPPORTED,
+                         "scene.trace asks for %s, which are the CPU's alone",
+                         trace->open_sides ? "open sides" : "steps");
+}
+
+static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)
+{
+    const hc_pyramid *bounds = tracer != NULL ? hc_tracer_bounds(tracer) : NULL;
+    return bounds != NULL ? hc_upload_pyramid(texture, unit, bounds, log) : HC_OK;
+}
+
+static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc_log *log)
+{
+    const hc_terrain_scene *scene = &terrain->scene;
+    const hc_field         *field = &scene->field;
+    const bool              needs = hc_trace_method_needs(scene->trace.method) != HC_NEEDS_NOTHING;
+    hc_result result = hc_upload_image(&textures[HEIGHTS], HEIGHTS, field->heights, field->width,
+                                       field->height, 1, "field", log);
+    hc_upload_wrap(HC_WRAP_NONE);
+    if (result == HC_OK && needs) {
+        result =
+            hc_upload_image(&textures[RATIOS], RATIOS, scene->trace.ratios, field->width,
+                            field->height, hc_cones_channels(scene->trace.cones), "ratios", log);
+    }
+    if (result == HC_OK) {
+        result = load_bounds(&textures[BOUNDS], BOUNDS, terrain->tracer, log);
+    }
+    if (result == HC_OK) {
+        result = load_bounds(&textures[EXACT_BOUNDS], EXACT_BOUNDS, terrain->exact, log);
+    }
+    if (result == HC_OK && scene->ground == HC_GROUND_IMAGE) {
+        result = hc_upload_image(&textures[IMAGE], IMAGE, scene->image, scene->image_width,
+                                 scene->image_height, 3, "image", log);
+    }
+    return result;
+}
+
+/* Texture space per world unit. */
+static void scale_of(double scale[3], const hc_terrain *terrain)
+{
+    const hc_placement *p = &terrain->placement;
+    scale[0]              = hc_field_step_u(&terrain->scene.field) / p->spacing_x;
+    scale[1]              = hc_field_step_v(&terrain->scene.field) / p->spacing_y;
+    scale[2]              = 1.0 / p->scale_z;
+}
+
+static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
+{
+    const hc_terrain_scene *scene  = &terrain->scene;
+    const hc_trace_method   method = exact ? HC_TRACE_MAXMIP : scene->trace.method;
+    double                  scale[3];
+    scale_of(scale, terrain);
+    hc_upload_field(program, &scene->field, &scene->trace, method);
+    hc_upload_int(program, "hc_heights", HEIGHTS);
+    hc_upload_int(program, "hc_ratios", RATIOS);
+    hc_upload_int(program, "hc_bounds", exact ? EXACT_BOUNDS : BOUNDS);
+    hc_upload_int(program, "u_image", IMAGE);
+    hc_upload_vector(program, "u_scale", scale);
+    hc_upload_vector(program, "u_sun", terrain->sun);
+    hc_upload_int(program, "u_shadows", !scene->no_shadows && !exact);
+    hc_upload_float(program, "u_shadow_slip", terrain->shadow_slip);
+    hc_upload_float(program, "u_haze", fmin((double)scene->haze, 1e30)); /* infinity is no number */
+    hc_upload_pair(program, "u_spacing", scene->spacing[0], scene->spacing[1]);
+    hc_upload_int(program, "u_ground", (int)scene->ground);
+    hc_upload_int(program, "u_blocky", scene->blocky);
+}
+
+static hc_result build(unsigned *program, const hc_terrain *terrain, bool exact, hc_log *log)
+{
+    const hc_trace_options *trace = &terrain->scene.trace;
+    char                    head[128];
+    hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
+    const hc_result result = hc_upload_program(program, head, "terrain.frag", log);
+    if (result == HC_OK) {
+        glUseProgram(*program);
+        set_scene(*program, terrain, exact);
+    }
+    return result;
+}
+
+hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
+{
+    hc_result result = check_method(terrain, log);
+    if (result != HC_OK) {
+        return result;
+    }
+    *gl = calloc(1, sizeof **gl);
+    if (*gl == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for OpenGL");
+    }
+    result = hc_gl_open(&(*gl)->context, log);
+    result = result != HC_OK ? result : load((*gl)->textures, terrain, log);
+    result = result != HC_OK ? result : build(&(*gl)->program, terrain, false, log);
+    if (result == HC_OK && terrain->exact != NULL) {
+        result = build(&(*gl)->exact, terrain, true, log);
+    }
+    return result; /* hc_terrain_destroy frees what there is */
+}
+
+void hc_terrain_gl_free(hc_terrain_gl *gl)
+{
+    if (gl == NULL) {
+        return;
+    }
+    if (gl->context.context != NULL && hc_gl_use(&gl->context, NULL) == HC_OK) {
+        glDeleteProgram(gl->program);
+        glDeleteProgram(gl->exact);
+        glDeleteTextures(TEXTURES, gl->textures);
+    }
+    hc_gl_close(&gl->context);
+    free(gl);
+}
+
+/* ---- drawing ------------------------------------------------------------------------------- */
+
+/* The eye goes to texture space in double precision, where the world may be large. */
+static void set_eye(unsigned program, const hc_terrain *terrain, const hc_eye *eye)
+{
+    const hc_placement *p     = &terrain->placement;
+    const hc_field     *field = &terrain->scene.field;
+    const double        first = field->registration == HC_GRID ? 0.0 : 0.5;
+    double              scale[3], place[3];
+    scale_of(scale, terrain);
+    for (int k = 0; k < 3; k++) {
+        place[k] = (eye->place[k] - p->offset[k]) * scale[k];
+    }
+    place[0] += first * hc_field_step_u(field);
+    place[1] += first * hc_field_step_v(field);
+    hc_upload_eye(program, eye);
+    hc_upload_vector(program, "u_place", place);
+    hc_upload_float(program, "u_footprint", hc_terrain_footprint(eye));
+    hc_upload_float(program, "u_haze_top", hc_haze_top(terrain) - eye->place[2]);
+}
+
+typedef struct job {
+    const hc_terrain *terrain;
+    const hc_eye     *eye;
+} job;
+
+static void add(void *user, hc_pixel *pixel, const hc_sample *sample, const double direction[3],
+                int row)
+{
+    const job *j = user;
+    (void)row;
+    hc_terrain_add(pixel, j->terrain, j->eye, sample, direction);
+}
+
+static hc_result draw(hc_pixel *pixels, double *seconds, const hc_terrain *terrain,
+                      const hc_eye *eye, hc_bands *bands, hc_log *log)
+{
+    job j          = { terrain, eye };
+    bands->program = terrain->gl->program;
+    bands->exact   = terrain->gl->exact;
+    glUseProgram(bands->program);
+    set_eye(bands->program, terrain, eye);
+    if (bands->exact != 0) {
+        glUseProgram(bands->exact);
+        set_eye(bands->exact, terrain, eye);
+    }
+    hc_bands_warm(bands);
+    return hc_bands_draw(pixels, seconds, bands, eye, &terrain->options.progress, add, &j, log);
+}
+
+hc_result hc_terrain_gl_draw(hc_pixel *pixels, double *seconds, const hc_terrain *terrain,
+                             const hc_eye *eye, hc_log *log)
+{
+    hc_bands  bands;
+    hc_result result = hc_gl_use(&terrain->gl->context, log);
+    if (result != HC_OK) {
+        return result;
+    }
+    result = hc_bands_make(&bands, eye->width, eye->height, TEXTURES, log);
+    if (result == HC_OK) {
+        result = draw(pixels, seconds, terrain, eye, &bands, log);
+    }
+    hc_bands_free(&bands);
+    return result;
+}

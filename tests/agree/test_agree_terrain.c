@@ -1,0 +1,308 @@
+/* shaders/terrain.frag against the CPU: every method from the air, the ground, a valley and outside,
+ * shadows and all; skipped where there is no OpenGL. */
+#include <heightcast/bake.h>
+#include <heightcast/terrain.h>
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 48, WIDE = 96, HIGH = 64, PIXELS = WIDE * HIGH };
+
+/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of a ridge, of a shadow, of
+ * a wall, between steps of a march), where float32 and double decide differently. */
+enum { ODD_MAX = PIXELS / 1000, CODES_MAX = 2 };
+
+static float heights[SIDE * SIDE], l2[SIDE * SIDE], relaxed[SIDE * SIDE];
+static float l1[SIDE * SIDE], quad[SIDE * SIDE * 4];
+
+typedef struct shot {
+    float      rgb[PIXELS * 3], depth[PIXELS];
+    uint8_t    bytes[PIXELS * 3];
+    hc_picture picture;
+} shot;
+
+static shot cpu, gl;
+
+static bool bake(float *ratios, hc_cones cones, hc_method method)
+{
+    const hc_field        field   = { .heights = heights, .width = SIDE, .height = SIDE };
+    const hc_cone_options options = { .cones = cones, .method = method };
+    return hc_bake_cone_map(ratios, &field, &options, NULL) == HC_OK;
+}
+
+static int prepare(void **state)
+{
+    static float cones[SIDE * SIDE * 4];
+    (void)state;
+    bool good = hc_synth(heights, SIDE, SIDE, "fbm", 7, NULL) == HC_OK
+                && bake(l2, HC_CONES_L2, HC_METHOD_EXACT)
+                && bake(relaxed, HC_CONES_L2, HC_METHOD_FALLING_EDGE)
+                && bake(cones, HC_CONES_L1, HC_METHOD_EXACT);
+    hc_bake_cell_ratios(l1, cones, SIDE, SIDE, HC_CONES_L1, HC_WRAP_NONE);
+    good = good && bake(cones, HC_CONES_QUAD, HC_METHOD_EXACT);
+    hc_bake_cell_ratios(quad, cones, SIDE, SIDE, HC_CONES_QUAD, HC_WRAP_NONE);
+    return good ? 0 : -1;
+}
+
+static hc_terrain_scene scene_of(hc_trace_method method)
+{
+    hc_terrain_scene scene = {
+        .field   = { .heights = heights, .width = SIDE, .height = SIDE },
+        .spacing = { 30.0, 40.0 },
+        .low     = 500.0,
+        .high    = 750.0,
+        .offset  = { 2000.0, -1000.0, 10.0 },
+    };
+    scene.trace.method = method;
+    switch (hc_trace_method_needs(method)) {
+    case HC_NEEDS_CELL_RATIOS:
+        scene.trace.ratios = quad;
+        scene.trace.cones  = HC_CONES_QUAD;
+        break;
+    case HC_NEEDS_RATIOS: scene.trace.ratios = l2; break;
+    case HC_NEEDS_RELAXED: scene.trace.ratios = relaxed; break;
+    default: break;
+    }
+    return scene;
+}
+
+static hc_terrain *make(const hc_terrain_scene *scene, hc_view view, hc_backend backend)
+{
+    const hc_render_options options = { .view = view, .backend = backend };
+    hc_log                  log     = { .text = "" };
+    hc_terrain             *terrain = NULL;
+    const hc_result         result  = hc_terrain_create(&terrain, scene, &options, &log);
+    if (result == HC_ERROR_UNSUPPORTED && backend == HC_BACKEND_GL) {
+        print_message("%s\n", log.text);
+        skip();
+    }
+    if (result != HC_OK) {
+        fail_msg("%s", log.text);
+    }
+    return terrain;
+}
+
+static void draw(shot *s, const hc_terrain *terrain, const hc_camera *camera)
+{
+    hc_log log = { .text = "" };
+    s->picture = (hc_picture){ .width = WIDE, .height = HIGH, .rgb = s->rgb, .depth = s->depth };
+    if (hc_terrain_draw(&s->picture, terrain, camera, &log) != HC_OK) {
+        fail_msg("%s", log.text);
+    }
+    hc_picture_bytes(s->bytes, &s->picture);
+}
+
+static int count_odd(void)
+{
+    int odd = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        bool differs = false;
+        for (int k = 3 * i; k < 3 * i + 3; k++) {
+            differs = differs || abs(cpu.bytes[k] - gl.bytes[k]) > CODES_MAX;
+        }
+        odd += differs ? 1 : 0;
+    }
+    return odd;
+}
+
+/* From every tour, and with parallel rays from above. */
+static void compare(const hc_terrain_scene *scene, hc_view view)
+{
+    hc_terrain *by_gl  = make(scene, view, HC_BACKEND_GL);
+    hc_terrain *by_cpu = make(scene, view, HC_BACKEND_CPU);
+    for (int from = 0; from <= HC_TOUR_ORBIT + 1; from++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, by_cpu, from > HC_TOUR_ORBIT ? HC_TOUR_ORBIT : (hc_tour)from, 0.3);
+        camera.orthographic = from > HC_TOUR_ORBIT ? 2500.0F : 0.0F;
+        draw(&cpu, by_cpu, &camera);
+        draw(&gl, by_gl, &camera);
+        const int odd = count_odd();
+        if (odd > ODD_MAX) {
+            fail_msg("%s, camera %d: %d pixels differ", hc_trace_method_name(scene->trace.method),
+                     from, odd);
+        }
+        assert_true(cpu.picture.figures.hits > 500);
+    }
+    hc_terrain_destroy(by_cpu);
+    hc_terrain_destroy(by_gl);
+}
+
+/* ---- pictures -------------------------------------------------------------------------------- */
+
+static void every_method_from_everywhere(void **state)
+{
+    (void)state;
+    for (int method = HC_TRACE_SAFE; method < hc_trace_method_count(); method++) {
+        const hc_terrain_scene scene = scene_of((hc_trace_method)method);
+        compare(&scene, HC_VIEW_SHADED);
+    }
+}
+
+static void every_ground(void **state)
+{
+    (void)state;
+    static float image[5 * 3 * 3];
+    for (int i = 0; i < 5 * 3 * 3; i++) {
+        image[i] = (float)(i * 7 % 11) / 11.0F;
+    }
+    for (int ground = 0; ground <= HC_GROUND_PLAIN; ground++) {
+        hc_terrain_scene scene = scene_of(HC_TRACE_MAXMIP);
+        scene.ground           = (hc_ground)ground;
+        scene.image            = image;
+        scene.image_width      = 5;
+        scene.image_height     = 3;
+        compare(&scene, HC_VIEW_SHADED);
+        scene.blocky = true;
+        compare(&scene, HC_VIEW_SHADED);
+    }
+}
+
+static void other_choices(void **state)
+{
+    (void)state;
+    hc_terrain_scene scene = scene_of(HC_TRACE_SAFE);
+    scene.trace.ratios     = l1;
+    scene.trace.cones      = HC_CONES_L1;
+    scene.sun[0]           = 0.4;
+    scene.sun[1]           = -1.0;
+    scene.sun[2]           = 0.15;
+    scene.haze             = 900.0F;
+    scene.exaggeration     = 2.5;
+    compare(&scene, HC_VIEW_SHADED);
+    scene                    = scene_of(HC_TRACE_MAXMIP);
+    scene.field.registration = HC_GRID;
+    scene.no_shadows         = true;
+    scene.haze               = INFINITY;
+    compare(&scene, HC_VIEW_SHADED);
+    scene                   = scene_of(HC_TRACE_RELIEF);
+    scene.trace.refinements = -1;
+    scene.trace.steps       = 100;
+    compare(&scene, HC_VIEW_SHADED);
+}
+
+static void views(void **state)
+{
+    (void)state;
+    const hc_view shown[] = { HC_VIEW_HEIGHT, HC_VIEW_NORMAL, HC_VIEW_DEPTH };
+    for (int i = 0; i < 3; i++) {
+        const hc_terrain_scene scene = scene_of(HC_TRACE_SAFE);
+        compare(&scene, shown[i]);
+    }
+    const hc_terrain_scene stairs = scene_of(HC_TRACE_QDM);
+    compare(&stairs, HC_VIEW_NORMAL);
+}
+
+/* ---- hits ------------------------------------------------------------------------------------ */
+
+/* docs/algorithms.md, section 22.6, has the bound, which is for angles of at least 1/64 between ray
+ * and surface. Sharper ones are as rare as edges. */
+static void depths_agree(void **state)
+{
+    (void)state;
+    const hc_terrain_scene scene  = scene_of(HC_TRACE_MAXMIP);
+    hc_terrain            *by_gl  = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain            *by_cpu = make(&scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
+    for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
+        hc_camera camera;
+        int       odd = 0, both = 0;
+        hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.0);
+        draw(&cpu, by_cpu, &camera);
+        draw(&gl, by_gl, &camera);
+        for (int i = 0; i < PIXELS; i++) {
+            const bool hit = isfinite(cpu.depth[i]) && isfinite(gl.depth[i]);
+            both += hit ? 1 : 0;
+            odd += hit && fabsf(cpu.depth[i] - gl.depth[i]) > 0x1p-12F * 1920.0F ? 1 : 0;
+        }
+        assert_true(both > 500);
+        assert_true(odd <= ODD_MAX);
+        const double steps = cpu.picture.figures.mean_steps - gl.picture.figures.mean_steps;
+        const double moves = cpu.picture.figures.mean_crossings - gl.picture.figures.mean_crossings;
+        assert_true(fabs(steps) < 0.02 && fabs(moves) < 0.02);
+        assert_true(gl.picture.figures.mean_fetches > gl.picture.figures.mean_crossings);
+    }
+    hc_terrain_destroy(by_cpu);
+    hc_terrain_destroy(by_gl);
+}
+
+static void nothing_is_lost(void **state)
+{
+    (void)state;
+    const hc_trace_method methods[] = { HC_TRACE_SAFE, HC_TRACE_MAXMIP, HC_TRACE_CONE_LOOP };
+    for (int m = 0; m < 3; m++) {
+        hc_terrain_scene scene = scene_of(methods[m]);
+        scene.trace.steps      = 4; /* only the last one counts them */
+        hc_terrain *by_gl      = make(&scene, HC_VIEW_MISSED, HC_BACKEND_GL);
+        for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
+            hc_camera camera;
+            hc_terrain_tour(&camera, by_gl, (hc_tour)tour, 0.6);
+            draw(&gl, by_gl, &camera);
+            const uint64_t wrong = gl.picture.figures.lost + gl.picture.figures.made_up;
+            assert_true((wrong == 0) == (methods[m] != HC_TRACE_CONE_LOOP));
+        }
+        hc_terrain_destroy(by_gl);
+    }
+}
+
+/* ---- terrains beside each other -------------------------------------------------------------- */
+
+/* Each has a context of its own, and pictures may change their size. */
+static void terrains_take_turns(void **state)
+{
+    (void)state;
+    static float           small[8 * 4 * 3];
+    const hc_terrain_scene first  = scene_of(HC_TRACE_MAXMIP);
+    hc_terrain_scene       second = first;
+    second.ground                 = HC_GROUND_PLAIN;
+    hc_terrain     *a             = make(&first, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain     *b             = make(&second, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_picture      little        = { .width = 8, .height = 4, .rgb = small };
+    const hc_camera camera        = { .fov = 60.0F };
+    draw(&cpu, a, &camera);
+    draw(&gl, b, &camera);
+    assert_true(count_odd() > 1000);
+    assert_int_equal(hc_terrain_draw(&little, a, &camera, NULL), HC_OK);
+    hc_terrain_destroy(b);
+    draw(&gl, a, &camera);
+    assert_memory_equal(cpu.bytes, gl.bytes, sizeof gl.bytes);
+    hc_terrain_destroy(a);
+}
+
+static void what_gl_cannot_do_is_said(void **state)
+{
+    (void)state;
+    const hc_render_options options = { .backend = HC_BACKEND_GL };
+    const char *const       says[]  = { "fast", "steps", "open sides" };
+    for (int i = 0; i < 3; i++) {
+        hc_log           log     = { .text = "" };
+        hc_terrain      *terrain = NULL;
+        hc_terrain_scene scene   = scene_of(i == 0 ? HC_TRACE_FAST : HC_TRACE_MAXMIP);
+        scene.trace.surface      = i == 1 ? HC_SURFACE_STEPS : HC_SURFACE_BILINEAR;
+        scene.trace.open_sides   = i == 2;
+        assert_int_equal(hc_terrain_create(&terrain, &scene, &options, &log), HC_ERROR_UNSUPPORTED);
+        assert_null(terrain);
+        if (strstr(log.text, "libepoxy") == NULL && strstr(log.text, says[i]) == NULL) {
+            fail_msg("'%s' does not say '%s'", log.text, says[i]);
+        }
+    }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_method_from_everywhere),
+        cmocka_unit_test(every_ground),
+        cmocka_unit_test(other_choices),
+        cmocka_unit_test(views),
+        cmocka_unit_test(depths_agree),
+        cmocka_unit_test(nothing_is_lost),
+        cmocka_unit_test(terrains_take_turns),
+        cmocka_unit_test(what_gl_cannot_do_is_said),
+    };
+    return cmocka_run_group_tests(tests, prepare, NULL);
+}
