@@ -123,14 +123,14 @@ const char *hc_bench_method(int index)
     return NULL;
 }
 
-static bool wanted(const hc_bench_options *options, const bench_case *c, int side)
+bool hc_bench_wanted(const hc_bench_options *options, const char *name, int side, int side_max)
 {
     for (int i = 0; i < options->method_count; i++) {
-        if (strcmp(options->methods[i], c->name) == 0) {
+        if (strcmp(options->methods[i], name) == 0) {
             return true;
         }
     }
-    return options->method_count == 0 && side <= c->side_max;
+    return options->method_count == 0 && side <= side_max;
 }
 
 static size_t output_floats(const bench_case *c, int side)
@@ -144,7 +144,7 @@ static size_t output_floats(const bench_case *c, int side)
 
 /* What of the exact ratios is kept: both cut off at 1, since where nothing is higher they are
  * infinite. */
-static void compare(hc_bench_row *row, const float *ratios, const float *exact, size_t count)
+void hc_bench_compare(hc_bench_row *row, const float *ratios, const float *exact, size_t count)
 {
     double kept  = 0.0;
     size_t wider = 0;
@@ -203,7 +203,7 @@ static hc_result run_case(bake_job *job, const char *field, float **exact, hc_lo
             *exact = output;
         }
         if (round && *exact != NULL) {
-            compare(&row, output, *exact, floats);
+            hc_bench_compare(&row, output, *exact, floats);
         }
         options->row_done(options->user, &row);
     }
@@ -220,7 +220,7 @@ static hc_result run_cases(bake_job *job, const char *field, hc_log *log)
     hc_result               result  = HC_OK;
     for (int i = 0; i < CASES && result == HC_OK; i++) {
         job->c = &cases[i];
-        if (!wanted(options, job->c, job->field.width)
+        if (!hc_bench_wanted(options, job->c->name, job->field.width, job->c->side_max)
             || (job->c->threaded && threads_of(options, job->c) == 1)
             || (job->c->work == work_cells && exact == NULL)) {
             continue;

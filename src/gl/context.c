@@ -122,3 +122,15 @@ hc_result hc_gl_check(const char *what, hc_log *log)
     const GLenum reset = knows_resets() ? glGetGraphicsResetStatus() : GL_NO_ERROR;
     return hc_gl_verdict(glGetError(), reset, what, log);
 }
+
+hc_result hc_gl_check_size(int width, int height, const char *what, hc_log *log)
+{
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
+    return width <= most && height <= most
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_LIMIT,
+                         "%s of %d x %d: textures of this driver have at most %d texels a side; "
+                         "use cpu",
+                         what, width, height, most);
+}

@@ -20,6 +20,9 @@ hc_result hc_gl_use(const hc_gl_context *context, hc_log *log);
  * context is lost. `what` is what was done. */
 hc_result hc_gl_check(const char *what, hc_log *log);
 
+/* HC_ERROR_LIMIT if textures cannot be as large as `what`. */
+hc_result hc_gl_check_size(int width, int height, const char *what, hc_log *log);
+
 /* What is made of the answers of glGetError and glGetGraphicsResetStatus. */
 hc_result hc_gl_verdict(unsigned error, unsigned reset, const char *what, hc_log *log);
 

@@ -76,13 +76,9 @@ double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const 
 hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
                          hc_log *log)
 {
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    if (width > most || height > most) {
-        return hc_fail(log, HC_ERROR_LIMIT,
-                       "field of %d x %d: textures of this driver have at most %d texels a side; "
-                       "use cpu",
-                       width, height, most);
+    const hc_result result = hc_gl_check_size(width, height, "field", log);
+    if (result != HC_OK) {
+        return result;
     }
     glGenTextures(1, texture);
     glBindTexture(GL_TEXTURE_2D, *texture);

@@ -33,6 +33,30 @@ class Bench(Case):
             self.assertEqual(row["runs"], 2)
             self.assertAlmostEqual(row["ns_per_texel"], 1e9 * row["seconds"] / row["side"] ** 2)
 
+    def test_opengl(self):
+        done = self.run_program("bench", "bake", "--sizes", "16,32", "--repeat", "2", "--backend",
+                                "gl", "--json", "gl.json") if self.has_opengl() else None
+        if done is None:
+            self.skipTest("no OpenGL here")
+        report = json.loads(self.path("gl.json").read_text())
+        self.assertIn("timer", report)
+        rows = {(row["method"], row.get("cones"), row["side"]): row for row in report["rows"]}
+        for method in ["exact", "brute", "quick", "quick-improved", "quick-centre",
+                       "quick-naive-centre", "falling-edge"]:
+            self.assertGreater(rows[method, "l2", 32]["seconds"], 0)
+        for cones in ["l1", "quad", "aniso"]:
+            self.assertIn(("exact", cones, 16), rows)
+        self.assertEqual(rows["brute", "l2", 32]["wider"], 0)
+        self.assertLess(rows["quick", "l2", 32]["mean_kept"], 1)
+        self.assertAlmostEqual(report["figures"][1]["quick_improved_over_exact"],
+                               rows["quick-improved", "l2", 32]["seconds"]
+                               / rows["exact", "l2", 32]["seconds"])
+        self.refused("bench", "bake", "--backend", "gl", "--methods", "ring", code=USAGE,
+                     says=["ring", "quick-improved"])
+
+    def has_opengl(self):
+        return self.json("bake", self.hills(), "a.exr", "--backend", "gl")["backend"] == "gl"
+
     def test_quality(self):
         quality = {row["method"]: row for row in self.report()["rows"] if row.get("cones") == "l2"}
         for same in ["exact", "brute", "ring"]:

@@ -89,6 +89,11 @@ int hc_cli_bench_begin(hc_cli_bench *bench)
     hc_cli *cli = bench->cli;
     hc_bench_machine_read(&bench->machine);
     hc_cli_text(cli, "bench", "bake");
+    if (bench->gpu != NULL) {
+        hc_cli_text(cli, "gpu", hc_gpu_name(bench->gpu));
+        hc_cli_text(cli, "gpu_rounds", hc_gpu_rounds(bench->gpu) ? "yes" : "no");
+        hc_cli_text(cli, "timer", "wall clock, shaders alone, all finished");
+    }
     hc_cli_show_machine(cli, &bench->machine);
     bench->list = cJSON_AddArrayToObject(cli->json, "rows");
     hc_cli_csv_add(&bench->csv,
@@ -159,7 +164,9 @@ void hc_cli_bench_row(void *user, const hc_bench_row *row)
 
 /* ---- figures ---- */
 
-/* Round cones; `threads` 0: any number above 1. NULL if that was not measured. */
+enum { SEVERAL = -1 };
+
+/* Round cones. NULL if that was not measured. */
 static const hc_bench_row *find(const hc_cli_bench *bench, const hc_bench_row *like,
                                 const char *method, int threads)
 {
@@ -168,7 +175,7 @@ static const hc_bench_row *find(const hc_cli_bench *bench, const hc_bench_row *l
         const bool          here = row->side == like->side && row->field == like->field;
         if (here && strcmp(row->method, method) == 0 && row->cones != NULL
             && strcmp(row->cones, hc_cones_name(HC_CONES_L2)) == 0
-            && (threads == 0 ? row->threads > 1 : row->threads == threads)) {
+            && (threads == SEVERAL ? row->threads > 1 : row->threads == threads)) {
             return row;
         }
     }
@@ -177,7 +184,7 @@ static const hc_bench_row *find(const hc_cli_bench *bench, const hc_bench_row *l
 
 static bool is_exact_l2(const hc_bench_row *row)
 {
-    return strcmp(row->method, "exact") == 0 && row->threads == 1
+    return strcmp(row->method, "exact") == 0 && row->threads <= 1
            && strcmp(row->cones, hc_cones_name(HC_CONES_L2)) == 0;
 }
 
@@ -218,14 +225,16 @@ void hc_cli_bench_figures(hc_cli_bench *bench)
         (void)cJSON_AddStringToObject(figure, "field", exact->field);
         (void)cJSON_AddNumberToObject(figure, "side", exact->side);
         add_ratio(bench, figure, "ring_over_exact",
-                  "exact, times as fast as ring:", find(bench, exact, "ring", 1), exact);
+                  "exact, times as fast as ring:", find(bench, exact, "ring", exact->threads),
+                  exact);
         add_ratio(bench, figure, "quick_improved_over_exact",
                   "exact, times as fast as quick-improved:",
-                  find(bench, exact, "quick-improved", 1), exact);
+                  find(bench, exact, "quick-improved", exact->threads), exact);
         add_ratio(bench, figure, "brute_over_exact",
-                  "exact, times as fast as brute:", find(bench, exact, "brute", 1), exact);
+                  "exact, times as fast as brute:", find(bench, exact, "brute", exact->threads),
+                  exact);
         add_ratio(bench, figure, "threads_speedup", "exact, one thread over several:", exact,
-                  find(bench, exact, "exact", 0));
+                  find(bench, exact, "exact", SEVERAL));
         if (first != NULL && first->field == exact->field && first->side < exact->side) {
             add_growth(bench, figure, first, exact);
         } else {

@@ -23,6 +23,7 @@ void *hc_cli_add_row(void *rows, int count, const void *row, size_t size);
 
 typedef struct hc_cli_bench {
     hc_cli          *cli;
+    const hc_gpu    *gpu; /* NULL: the CPU is measured */
     hc_bench_machine machine;
     hc_bench_row    *rows; /* their field names are those of the command line */
     int              count;

@@ -72,8 +72,9 @@ static int read_lists(hc_cli *cli, bench_lists *lists)
                                 settings->fields == NULL ? "fbm" : settings->fields, field_word);
     }
     if (code == HC_CLI_DONE && settings->methods != NULL) {
-        code =
-            hc_cli_read_list(cli, &lists->methods, "methods", settings->methods, hc_bench_method);
+        code = hc_cli_read_list(cli, &lists->methods, "methods", settings->methods,
+                                settings->backend == HC_CLI_GL ? hc_bench_gpu_method
+                                                               : hc_bench_method);
     }
     return code;
 }
@@ -93,10 +94,12 @@ static int check_arguments(hc_cli *cli)
                            "nothing to measure is called '%s'; bake, trace, steps and render are",
                            settings->paths[0]);
     }
-    if (!asks_for(cli, "render")
-        && (hc_cli_given(settings, "size") || hc_cli_given(settings, "backend"))) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--%s is for bench render; leave it out",
-                           hc_cli_given(settings, "size") ? "size" : "backend");
+    if (!asks_for(cli, "render") && hc_cli_given(settings, "size")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--size is for bench render; leave it out");
+    }
+    if (!asks_for(cli, "render") && !asks_for(cli, "bake") && hc_cli_given(settings, "backend")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "--backend is for bench bake and bench render; leave it out");
     }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
     int        code      = json_file ? hc_cli_check_output(cli, settings->report) : HC_CLI_DONE;
@@ -111,7 +114,7 @@ static bool stop_asked(void)
     return hc_cli_caught_signal() != 0;
 }
 
-static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench)
+static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench, hc_gpu *gpu)
 {
     const hc_cli_settings *settings = &cli->settings;
     const hc_bench_options options  = { .fields       = lists->fields.items,
@@ -124,12 +127,14 @@ static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench)
                                         .repeat       = settings->repeat,
                                         .threads      = settings->threads,
                                         .isa          = settings->map.cone.isa,
+                                        .gpu          = gpu,
                                         .progress     = hc_cli_progress(cli),
                                         .stop         = stop_asked,
                                         .row_done     = hc_cli_bench_row,
                                         .user         = bench };
     hc_cli_phase(cli, "bake");
-    const hc_result result = hc_bench_bake(&options, &cli->log);
+    const hc_result result =
+        gpu != NULL ? hc_bench_gpu(&options, &cli->log) : hc_bench_bake(&options, &cli->log);
     hc_cli_phase(cli, NULL);
     return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
 }
@@ -150,10 +155,31 @@ int hc_cli_write_reports(hc_cli *cli, const char *csv)
     return code;
 }
 
+static int bench_bake(hc_cli *cli, const bench_lists *lists)
+{
+    hc_gpu   *gpu    = NULL;
+    hc_result result = HC_OK;
+    if (cli->settings.backend == HC_CLI_GL) {
+        result = hc_gpu_create(&gpu, &cli->log);
+    }
+    if (result != HC_OK) {
+        return hc_cli_fail_result(cli, result);
+    }
+    hc_cli_bench bench = { .cli = cli, .gpu = gpu };
+    int          code  = hc_cli_bench_begin(&bench);
+    code               = code == HC_CLI_DONE ? measure(cli, lists, &bench, gpu) : code;
+    if (code == HC_CLI_DONE) {
+        hc_cli_bench_figures(&bench);
+        code = hc_cli_write_reports(cli, bench.csv.text);
+    }
+    hc_cli_bench_end(&bench);
+    hc_gpu_destroy(gpu);
+    return code;
+}
+
 int hc_cli_run_bench(hc_cli *cli)
 {
-    bench_lists  lists = { 0 };
-    hc_cli_bench bench = { .cli = cli };
+    bench_lists lists  = { 0 };
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
     int code           = check_arguments(cli);
     if (code == HC_CLI_DONE && !asks_for(cli, "bake")) {
@@ -162,15 +188,5 @@ int hc_cli_run_bench(hc_cli *cli)
                                         : hc_cli_run_bench_render(cli);
     }
     code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
-    if (code != HC_CLI_DONE) {
-        return code;
-    }
-    code = hc_cli_bench_begin(&bench);
-    code = code == HC_CLI_DONE ? measure(cli, &lists, &bench) : code;
-    if (code == HC_CLI_DONE) {
-        hc_cli_bench_figures(&bench);
-        code = hc_cli_write_reports(cli, bench.csv.text);
-    }
-    hc_cli_bench_end(&bench);
-    return code;
+    return code == HC_CLI_DONE ? bench_bake(cli, &lists) : code;
 }

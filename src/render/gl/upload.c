@@ -1,6 +1,5 @@
 #include "upload.h"
 
-#include "base/fail.h"
 #include "gl/context.h"
 #include "gl/program.h"
 
@@ -10,19 +9,6 @@
 #include <stdio.h>
 
 /* ---- textures ------------------------------------------------------------------------------ */
-
-static hc_result check_size(int width, int height, const char *what, hc_log *log)
-{
-    GLint most = 0;
-    glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
-    return width <= most && height <= most
-               ? HC_OK
-               : hc_fail(
-                   log, HC_ERROR_LIMIT,
-                   "%s of %d x %d: textures of this driver have at most %d texels a side; use "
-                   "cpu",
-                   what, width, height, most);
-}
 
 static void begin_texture(unsigned *texture, int unit, int levels)
 {
@@ -40,7 +26,7 @@ hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int 
 {
     static const GLenum inner[] = { 0, GL_R32F, 0, GL_RGB32F, GL_RGBA32F };
     static const GLenum outer[] = { 0, GL_RED, 0, GL_RGB, GL_RGBA };
-    const hc_result     result  = check_size(width, height, what, log);
+    const hc_result     result  = hc_gl_check_size(width, height, what, log);
     if (result != HC_OK) {
         return result;
     }
