@@ -26,6 +26,7 @@ static const gpu_case cases[] = {
     { "quick-naive-centre", HC_METHOD_QUICK_NAIVE_CENTRE, HC_CONES_L2, HC_SIDE_MAX },
     { "brute", HC_METHOD_BRUTE, HC_CONES_L2, 128 },
     { "falling-edge", HC_METHOD_FALLING_EDGE, HC_CONES_L2, 1024 },
+    { "gems", HC_METHOD_GEMS, HC_CONES_L2, 64 },
     { "exact", HC_METHOD_EXACT, HC_CONES_L1, HC_SIDE_MAX },
     { "exact", HC_METHOD_EXACT, HC_CONES_QUAD, HC_SIDE_MAX },
     { "exact", HC_METHOD_EXACT, HC_CONES_ANISO, HC_SIDE_MAX },

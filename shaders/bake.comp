@@ -5,6 +5,7 @@
  *                     HC_EXACT      the same by pruned search of a max pyramid
  *                     HC_QUICK      the blocks around a texel on every level (2022, algorithms 1, 2)
  *                     HC_FALLING    the samples that limit relaxed cones of one quadrant (2024)
+ *                     HC_GEMS       relaxed cones by ray sampling (2007), likewise
  *                     HC_ROUNDING   what this driver makes of quotients and roots
  *     #define HC_L2 1               round cones; 0: diamonds
  *     #define HC_SIDED 1            samples of the quadrant u_sides only; 0: all
@@ -22,6 +23,7 @@
 #define HC_QUICK 4
 #define HC_FALLING 5
 #define HC_ROUNDING 6
+#define HC_GEMS 7
 #ifndef HC_L2
 #define HC_L2 1
 #endif
@@ -250,7 +252,96 @@ void run(ivec2 here)
 
 /* ---- pruned search --------------------------------------------------------------------------- */
 
+#if HC_BAKE == HC_GEMS
+
+uniform int u_gems_steps;
+
+/* Two neighbouring samples along one axis: low, high; and the weight of the second. */
+int tap_at(float place, int size, bool wraps, out int high, out float weight)
+{
+    float         whole = float(size);
+    precise float turns = whole * floor(place / whole);
+    precise float kept  = wraps ? place - turns : clamp(place, 0.0, whole - 1.0);
+    if (wraps && !(kept >= 0.0 && kept < whole)) {
+        kept = 0.0; /* rounding can leave the period */
+    }
+    int low = int(kept);
+    high    = low + 1 < size ? low + 1 : wraps ? 0 : low;
+    weight  = kept - float(low);
+    return low;
+}
+
+float between(float a, float b, float weight)
+{
+    precise float part = (b - a) * weight;
+    precise float sum  = a + part;
+    return sum;
+}
+
+float surface(vec2 place)
+{
+    ivec2 high;
+    vec2  weight;
+    int   x     = tap_at(place.x, u_size.x, u_wraps.x, high.x, weight.x);
+    int   y     = tap_at(place.y, u_size.y, u_wraps.y, high.y, weight.y);
+    float upper = between(texelFetch(u_heights, ivec2(x, y), 0).r,
+                          texelFetch(u_heights, ivec2(high.x, y), 0).r, weight.x);
+    float lower = between(texelFetch(u_heights, ivec2(x, high.y), 0).r,
+                          texelFetch(u_heights, high, 0).r, weight.x);
+    return between(upper, lower, weight.y);
+}
+
+/* From `here` to the nearest image of `there`; of two as near, the one to the right or below. */
+ivec2 to_image(ivec2 here, ivec2 there)
+{
+    ivec2 straight = there - here;
+    ivec2 forward  = u_size / 2;
+    ivec2 turns    = ivec2(lessThan(straight, forward - u_size + 1))
+                  - ivec2(greaterThan(straight, forward));
+    return straight + turns * ivec2(u_wraps) * u_size;
+}
+
+/* A ray from above `here` enters the surface at `there` and goes on down: where it comes out again
+ * the cone ends. */
+void judge(inout steepest best, ivec2 here, ivec2 there, float apex, float rise, float reach)
+{
+    ivec2 way   = to_image(here, there);
+    float entry = texelFetch(u_heights, there, 0).r;
+    if (entry >= 1.0) {
+        look_at(best, rise, reach);
+        return;
+    }
+    float         steps   = float(u_gems_steps);
+    precise float falls   = (1.0 - entry) * steps;
+    precise float stretch = entry / falls;
+    for (int i = 1; i <= u_gems_steps; i++) {
+        precise float share  = float(i) / steps;
+        precise float fallen = entry * share;
+        precise float height = entry - fallen;
+        precise float longer = float(i) * stretch;
+        precise float times  = 1.0 + longer;
+        precise float square = times * times;
+        precise float beyond = reach * square;
+        precise float over   = height - apex;
+        if (height <= apex || !may_be_steeper(over, beyond, best)) {
+            return;
+        }
+        precise vec2 gone  = vec2(way) * times;
+        precise vec2 place = vec2(here) + gone;
+        if (surface(place) < height) {
+            look_at(best, over, beyond);
+            return;
+        }
+    }
+}
+
+#endif
+
+#if HC_BAKE == HC_EXACT || HC_BAKE == HC_GEMS
+
 #if HC_BAKE == HC_EXACT
+#define judge(best, here, there, apex, rise, reach) look_at(best, rise, reach)
+#endif
 
 /* Blocks of a parent are taken from the side that is nearer. */
 bvec2 from_the_end(ivec2 here, ivec2 parent, int level)
@@ -313,9 +404,10 @@ void run(ivec2 here)
     while (going) {
         float rise  = texelFetch(u_highest, block, level).r - height;
         float reach = reach_to(apart_from(here, first_of(block, level), last_of(block, level)));
-        if (level == 0) {
-            look_at(best, rise, reach);
-        } else if (rise > 0.0 && may_be_steeper(rise, reach, best)) {
+        bool  may_be = rise > 0.0 && may_be_steeper(rise, reach, best);
+        if (may_be && level == 0) {
+            judge(best, here, block, height, rise, reach);
+        } else if (may_be) {
             ivec2 parent = block;
             level--;
             block = before_first(here, parent, level);

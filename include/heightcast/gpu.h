@@ -10,7 +10,7 @@
  * What comes out is what bake.h promises: bit for bit where the driver rounds quotients and roots
  * as IEEE 754 does (hc_gpu_rounds), which is tried once. Elsewhere ratios are never wider than
  * those, and narrower by less than one part in 2^16; of two elongated diamonds that are about as
- * good it may be the other. */
+ * good it may be the other, and of gems, which promises nothing, neither holds. */
 #ifndef HEIGHTCAST_GPU_H
 #define HEIGHTCAST_GPU_H
 
@@ -38,7 +38,7 @@ HC_API double hc_gpu_seconds(const hc_gpu *gpu);
 
 /* As hc_bake_cone_map. Of the options, isa and threads do not count.
  *
- * Every method but ring and gems, which are the CPU's alone: HC_ERROR_UNSUPPORTED. Work is given to
+ * Every method but ring, which is the CPU's alone: HC_ERROR_UNSUPPORTED. Work is given to
  * the driver in pieces that take about a twentieth of a second, and reported after each.
  * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); the same once, and 9.4 bytes,
  * on the GPU. Errors besides: HC_ERROR_LIMIT for fields larger than the driver's textures;

@@ -127,6 +127,7 @@ static void set_search(const baking *b, unsigned program)
     glUniform1i(glGetUniformLocation(program, "u_heights"), HEIGHTS_UNIT);
     glUniform1i(glGetUniformLocation(program, "u_highest"), HIGHEST_UNIT);
     glUniform1i(glGetUniformLocation(program, "u_improved"), improved);
+    glUniform1i(glGetUniformLocation(program, "u_gems_steps"), b->job->gems_steps);
     glUniform1i(glGetUniformLocation(program, "u_centre"), centre);
     glUniform1i(glGetUniformLocation(program, "u_go_on"),
                 b->method == HC_METHOD_FALLING_EDGE && b->current > 0);
@@ -155,12 +156,22 @@ static hc_result keep_falling(const baking *b)
                                b->job->log);
 }
 
+static hc_gpu_shader shader_of(hc_method method)
+{
+    switch (method) {
+    case HC_METHOD_EXACT:
+    case HC_METHOD_FALLING_EDGE: return HC_GPU_EXACT;
+    case HC_METHOD_BRUTE: return HC_GPU_BRUTE;
+    case HC_METHOD_GEMS: return HC_GPU_GEMS;
+    default: return HC_GPU_QUICK;
+    }
+}
+
 static hc_result search(const baking *b)
 {
-    const bool          sided = b->searches[b->current].sign_u != 0;
-    const bool          brute = b->method == HC_METHOD_BRUTE;
-    const bool          exact = b->method == HC_METHOD_EXACT || b->method == HC_METHOD_FALLING_EDGE;
-    const hc_gpu_shader shader = brute ? HC_GPU_BRUTE : exact ? HC_GPU_EXACT : HC_GPU_QUICK;
+    const bool          sided  = b->searches[b->current].sign_u != 0;
+    const bool          brute  = b->method == HC_METHOD_BRUTE;
+    const hc_gpu_shader shader = shader_of(b->method);
     unsigned            program;
     hc_result           result = HC_OK;
     if (b->method == HC_METHOD_FALLING_EDGE) {
@@ -278,9 +289,9 @@ hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field
     const hc_cone_options given = options != NULL ? *options : (hc_cone_options){ 0 };
     hc_cone_job           job;
     hc_result             result = hc_cone_job_init(&job, ratios, field, &given, log);
-    if (result == HC_OK && (given.method == HC_METHOD_RING || given.method == HC_METHOD_GEMS)) {
-        result = hc_fail(log, HC_ERROR_UNSUPPORTED, "options.method %s is the CPU's alone",
-                         hc_method_name(given.method));
+    if (result == HC_OK && given.method == HC_METHOD_RING) {
+        result = hc_fail(log, HC_ERROR_UNSUPPORTED,
+                         "options.method ring is the CPU's alone; exact gives the same");
     }
     result = result == HC_OK ? hc_gpu_begin(gpu, log) : result;
     if (result == HC_OK) {

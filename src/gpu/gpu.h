@@ -14,6 +14,7 @@ typedef enum hc_gpu_shader {
     HC_GPU_QUICK,
     HC_GPU_FALLING,
     HC_GPU_ROUNDING,
+    HC_GPU_GEMS,
     HC_GPU_SHADERS
 } hc_gpu_shader;
 

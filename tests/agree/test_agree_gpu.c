@@ -110,7 +110,7 @@ static void every_method(void **state)
     (void)state;
     skip_without_gpu();
     for (int method = 0; hc_method_name((hc_method)method) != NULL; method++) {
-        if (method != HC_METHOD_RING && method != HC_METHOD_GEMS) {
+        if (method != HC_METHOD_RING) {
             expect_method((hc_method)method, hc_gpu_rounds(gpu));
         }
     }
