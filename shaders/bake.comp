@@ -343,54 +343,50 @@ void judge(inout steepest best, ivec2 here, ivec2 there, float apex, float rise,
 #define judge(best, here, there, apex, rise, reach) look_at(best, rise, reach)
 #endif
 
-/* Blocks of a parent are taken from the side that is nearer. */
-bvec2 from_the_end(ivec2 here, ivec2 parent, int level)
+/* The blocks below one parent, in the order in which they are looked at: from the side of the block
+ * of their level that holds the texel. */
+struct family {
+    ivec2 first, last; /* in this order: first may be beyond last */
+    ivec2 step_;
+};
+
+family family_of(ivec2 parent, int level, ivec2 own)
 {
-    return greaterThan(2 * here, first_of(parent, level) + last_of(parent, level));
+    ivec2 low  = 2 * parent;
+    ivec2 high = last_child(parent, level + 1);
+    bvec2 turn = greaterThan(own, low);
+    return family(ivec2(turn.x ? high.x : low.x, turn.y ? high.y : low.y),
+                  ivec2(turn.x ? low.x : high.x, turn.y ? low.y : high.y),
+                  ivec2(turn.x ? -1 : 1, turn.y ? -1 : 1));
 }
 
-/* The block after `block` below its parent; false: there is none. `block` may stand before the
- * first one, in a row that is. */
-bool next_block(inout ivec2 block, ivec2 here, ivec2 parent, int level)
+/* False: `block` is the last one, and stays. */
+bool next_of(family f, inout ivec2 block)
 {
-    ivec2 first = 2 * parent;
-    ivec2 last  = last_child(parent, level + 1);
-    bvec2 turn  = from_the_end(here, parent, level + 1);
-    block.x += turn.x ? -1 : 1;
-    if (block.x < first.x || block.x > last.x) {
-        block.x = turn.x ? last.x : first.x;
-        block.y += turn.y ? -1 : 1;
+    bool turn = block.x == f.last.x;
+    if (turn && block.y == f.last.y) {
+        return false;
     }
-    return block.y >= first.y && block.y <= last.y;
+    block = turn ? ivec2(f.first.x, block.y + f.step_.y) : ivec2(block.x + f.step_.x, block.y);
+    return true;
 }
 
-ivec2 before_first(ivec2 here, ivec2 parent, int level)
-{
-    bvec2 turn = from_the_end(here, parent, level + 1);
-    ivec2 last = last_child(parent, level + 1);
-    return ivec2(turn.x ? last.x + 1 : 2 * parent.x - 1, turn.y ? last.y : 2 * parent.y);
-}
-
-/* The next block that does not hold `here`: beside this one, else above it; the search climbs along
- * the blocks that hold `here`. False: all are done. */
+/* From the block that was looked at to the next one: beside it, or else its parent. Along the blocks
+ * that hold `here` the search climbs: those are not looked at, but their siblings from the first.
+ * False: there is none beside it. */
 bool advance(inout ivec2 block, inout int level, ivec2 here)
 {
-    while (level < u_levels - 1) {
-        ivec2 parent = min(block >> 1, side_of(level + 1) - 1);
-        bool  start  = block == block_above(here, level);
-        ivec2 next   = start ? before_first(here, parent, level) : block;
-        bool  more   = next_block(next, here, parent, level);
-        if (more && next == block_above(here, level)) {
-            more = next_block(next, here, parent, level);
-        }
-        if (more) {
-            block = next;
-            return true;
-        }
-        block = parent;
-        level++;
+    ivec2  own    = block_above(here, level);
+    ivec2  parent = min(block >> 1, side_of(level + 1) - 1);
+    family f      = family_of(parent, level, own);
+    ivec2  next   = block == own ? f.first : block;
+    bool   more   = block == own || next_of(f, next);
+    if (more && next == own) {
+        more = next_of(f, next);
     }
-    return false;
+    block = more ? next : parent;
+    level += more ? 0 : 1;
+    return more;
 }
 
 void run(ivec2 here)
@@ -399,22 +395,23 @@ void run(ivec2 here)
     steepest best   = steepest_of(u_go_on ? imageLoad(u_best, here).r : 0.0);
     float    top    = texelFetch(u_highest, ivec2(0), u_levels - 1).r;
     ivec2    block  = here;
-    int      level  = 0;
-    bool     going  = top > height && advance(block, level, here);
-    while (going) {
+    int      level  = top > height ? 0 : u_levels;
+    bool     fresh  = false; /* `block` was not looked at yet */
+    while (fresh || level < u_levels - 1) {
+        if (!fresh && !advance(block, level, here)) {
+            continue;
+        }
         float rise  = texelFetch(u_highest, block, level).r - height;
         float reach = reach_to(apart_from(here, first_of(block, level), last_of(block, level)));
         bool  may_be = rise > 0.0 && may_be_steeper(rise, reach, best);
+        fresh        = may_be && level > 0;
         if (may_be && level == 0) {
             judge(best, here, block, height, rise, reach);
-        } else if (may_be) {
-            ivec2 parent = block;
-            level--;
-            block = before_first(here, parent, level);
-            next_block(block, here, parent, level);
-            continue;
         }
-        going = advance(block, level, here);
+        if (fresh) {
+            level--;
+            block = family_of(block, level, block_above(here, level)).first;
+        }
     }
     imageStore(u_best, here, vec4(best.value));
 }
