@@ -1,6 +1,8 @@
 /* bake.comp: max-mip pyramids and exact or quick cone maps on the GPU. Compute shaders of GLSL 4.30,
  * several in one text: put your #version line in front of it and
  *     #define HC_BAKE HC_PYRAMID    one level of a pyramid from the level below it
+ *                     HC_BOUNDS     the highest or lowest corner of each bilinear cell
+ *                     HC_GRADIENT   slopes along one axis
  *                     HC_BRUTE      the steepest of all samples, some rows of them at a time
  *                     HC_EXACT      the same by pruned search of a max pyramid
  *                     HC_QUICK      the blocks around a texel on every level (2022, algorithms 1, 2)
@@ -24,6 +26,8 @@
 #define HC_FALLING 5
 #define HC_ROUNDING 6
 #define HC_GEMS 7
+#define HC_BOUNDS 8
+#define HC_GRADIENT 9
 #ifndef HC_L2
 #define HC_L2 1
 #endif
@@ -174,10 +178,16 @@ ivec2 last_child(ivec2 block, int level)
 
 /* ---- pyramids -------------------------------------------------------------------------------- */
 
+uniform bool u_minimum;
+
+float extreme_of(float a, float b)
+{
+    return u_minimum ? min(a, b) : max(a, b);
+}
+
 #if HC_BAKE == HC_PYRAMID
 
-uniform int  u_level;
-uniform bool u_minimum;
+uniform int u_level;
 layout(r32f, binding = 1) uniform readonly image2D u_below;
 
 void run(ivec2 block)
@@ -187,11 +197,56 @@ void run(ivec2 block)
     float found = imageLoad(u_below, first).r;
     for (int y = first.y; y <= last.y; y++) {
         for (int x = first.x; x <= last.x; x++) {
-            float value = imageLoad(u_below, ivec2(x, y)).r;
-            found       = u_minimum ? min(found, value) : max(found, value);
+            found = extreme_of(found, imageLoad(u_below, ivec2(x, y)).r);
         }
     }
     imageStore(u_best, block, vec4(found));
+}
+
+#endif
+
+/* ---- cells and slopes ------------------------------------------------------------------------ */
+
+/* The sample beside one, wrapped or at the border. */
+ivec2 beside_of(ivec2 here, ivec2 by)
+{
+    ivec2 next   = here + by;
+    ivec2 folded = (next + u_size) % u_size;
+    ivec2 kept   = clamp(next, ivec2(0), u_size - 1);
+    return ivec2(u_wraps.x ? folded.x : kept.x, u_wraps.y ? folded.y : kept.y);
+}
+
+#if HC_BAKE == HC_BOUNDS
+
+void run(ivec2 here)
+{
+    ivec2 next  = beside_of(here, ivec2(1));
+    float upper = extreme_of(texelFetch(u_heights, here, 0).r,
+                             texelFetch(u_heights, ivec2(next.x, here.y), 0).r);
+    float lower = extreme_of(texelFetch(u_heights, ivec2(here.x, next.y), 0).r,
+                             texelFetch(u_heights, next, 0).r);
+    imageStore(u_best, here, vec4(extreme_of(upper, lower)));
+}
+
+#endif
+
+#if HC_BAKE == HC_GRADIENT
+
+uniform double u_per_step; /* samples per texture unit */
+
+/* Central difference, one-sided at a border that does not wrap, along u_sides. Doubles, so that the
+ * difference of two floats is exact and only the result is rounded. */
+void run(ivec2 here)
+{
+    ivec2  low   = beside_of(here, -u_sides);
+    ivec2  high  = beside_of(here, u_sides);
+    bool   wraps = u_sides.x != 0 ? u_wraps.x : u_wraps.y;
+    ivec2  apart_ = wraps ? 2 * u_sides : high - low;
+    int    steps = apart_.x + apart_.y;
+    precise double rise  = double(texelFetch(u_heights, high, 0).r)
+                          - double(texelFetch(u_heights, low, 0).r);
+    precise double slope = rise * (steps == 2 ? 0.5 * u_per_step : u_per_step);
+    imageStore(u_best, here, vec4(steps > 0 ? float(slope) : 0.0));
 }
 
 #endif
@@ -545,19 +600,11 @@ void run(ivec2 here)
 
 #if HC_BAKE == HC_FALLING
 
-ivec2 outward(ivec2 here)
-{
-    ivec2 next   = here + u_sides;
-    ivec2 folded = (next + u_size) % u_size;
-    ivec2 kept   = clamp(next, ivec2(0), u_size - 1);
-    return ivec2(u_wraps.x ? folded.x : kept.x, u_wraps.y ? folded.y : kept.y);
-}
-
 /* A sample counts if the surface falls outwards from it along one of the four edges of its cell on
  * that side; others are below every height. */
 void run(ivec2 here)
 {
-    ivec2 out_  = outward(here);
+    ivec2 out_  = beside_of(here, u_sides);
     float at    = texelFetch(u_heights, here, 0).r;
     float at_u  = texelFetch(u_heights, ivec2(out_.x, here.y), 0).r;
     float at_v  = texelFetch(u_heights, ivec2(here.x, out_.y), 0).r;

@@ -154,13 +154,16 @@ HC_API void hc_bake_bounds(float *bounds, const hc_field *field, hc_extreme extr
 
 /* ---- whole maps, quantised safely ------------------------------------------------------------ */
 
-/* What computes ratios and pyramids: as hc_bake_cone_map and hc_bake_pyramid, with `user` in front.
- * heightcast/gpu.h has one. */
+/* What computes the numbers of a map: as hc_bake_cone_map, hc_bake_pyramid, hc_bake_bounds and
+ * hc_bake_gradient, with `user` in front. heightcast/gpu.h has one. */
 typedef struct hc_map_baker {
     hc_result (*cones)(void *user, float *ratios, const hc_field *field,
                        const hc_cone_options *options, hc_log *log);
     hc_result (*pyramid)(void *user, hc_pyramid *pyramid, float *values, const float *heights,
                          int width, int height, hc_extreme extreme, hc_log *log);
+    hc_result (*bounds)(void *user, float *bounds, const hc_field *field, hc_extreme extreme,
+                        hc_log *log);
+    hc_result (*gradient)(void *user, float *gradients, const hc_field *field, hc_log *log);
     void *user;
 } hc_map_baker;
 
@@ -173,7 +176,7 @@ typedef struct hc_map_options {
     hc_cone_options cone;       /* kinds cone and relaxed. max_ratio 0: no limit for float, 1 for
                                    codes. relaxed: method gems or falling-edge; exact (zero) means
                                    falling-edge                                                  */
-    /* NULL: the CPU. compat2006 and gradients are the CPU's in any case. */
+    /* NULL: the CPU. Slopes in codes, and compat2006, are the CPU's in any case. */
     const hc_map_baker *baker;
 } hc_map_options;
 

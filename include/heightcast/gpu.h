@@ -51,7 +51,13 @@ HC_API hc_result hc_gpu_bake_pyramid(hc_gpu *gpu, hc_pyramid *pyramid, float *va
                                      const float *heights, int width, int height,
                                      hc_extreme extreme, hc_log *log);
 
-/* For hc_map_options.baker: hc_bake_map then has its ratios and pyramids from here. As long as
+/* As hc_bake_bounds and hc_bake_gradient, likewise. */
+HC_API hc_result hc_gpu_bake_bounds(hc_gpu *gpu, float *bounds, const hc_field *field,
+                                    hc_extreme extreme, hc_log *log);
+HC_API hc_result hc_gpu_bake_gradient(hc_gpu *gpu, float *gradients, const hc_field *field,
+                                      hc_log *log);
+
+/* For hc_map_options.baker: hc_bake_map then has all that it stores from here. As long as
  * `gpu`. */
 HC_API const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu);
 

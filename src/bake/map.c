@@ -177,6 +177,16 @@ static hc_result fill_pyramid(const making *self, hc_pyramid *pyramid, float *va
     return HC_OK;
 }
 
+static hc_result fill_bounds(const making *self, float *values, hc_extreme extreme)
+{
+    const hc_map_baker *baker = self->options->baker;
+    if (baker != NULL) {
+        return baker->bounds(baker->user, values, self->field, extreme, self->log);
+    }
+    hc_bake_bounds(values, self->field, extreme);
+    return HC_OK;
+}
+
 /* One channel after the other, so that one pyramid's memory is enough. */
 static hc_result bake_pyramids(making *self)
 {
@@ -191,10 +201,12 @@ static hc_result bake_pyramids(making *self)
         const float     *base    = self->field->heights;
         hc_pyramid       pyramid;
         if (info->kind == HC_MAP_BOUNDS) {
-            hc_bake_bounds(values, self->field, extreme);
-            base = values;
+            result = fill_bounds(self, values, extreme);
+            base   = values;
         }
-        result = fill_pyramid(self, &pyramid, values, base, extreme);
+        if (result == HC_OK) {
+            result = fill_pyramid(self, &pyramid, values, base, extreme);
+        }
         for (int level = 0; level < info->levels && result == HC_OK; level++) {
             const float *from = hc_pyramid_level(&pyramid, level, NULL, NULL);
             hc_put_extremes(self->map, level, channel, from, extreme);
@@ -206,6 +218,10 @@ static hc_result bake_pyramids(making *self)
 
 static hc_result bake_gradient(making *self)
 {
+    const hc_map_baker *baker = self->options->baker;
+    if (self->map->info.bits == 32 && baker != NULL) {
+        return baker->gradient(baker->user, self->map->texels, self->field, self->log);
+    }
     if (self->map->info.bits == 32) {
         hc_bake_gradient(self->map->texels, self->field);
     } else {

@@ -307,24 +307,3 @@ hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field
     }
     return result;
 }
-
-/* ---- for whole maps ------------------------------------------------------------------------- */
-
-static hc_result cones_for_map(void *user, float *ratios, const hc_field *field,
-                               const hc_cone_options *options, hc_log *log)
-{
-    return hc_gpu_bake_cone_map(user, ratios, field, options, log);
-}
-
-static hc_result pyramid_for_map(void *user, hc_pyramid *pyramid, float *values,
-                                 const float *heights, int width, int height, hc_extreme extreme,
-                                 hc_log *log)
-{
-    return hc_gpu_bake_pyramid(user, pyramid, values, heights, width, height, extreme, log);
-}
-
-const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu)
-{
-    gpu->baker = (hc_map_baker){ .cones = cones_for_map, .pyramid = pyramid_for_map, .user = gpu };
-    return &gpu->baker;
-}

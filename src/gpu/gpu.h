@@ -15,6 +15,8 @@ typedef enum hc_gpu_shader {
     HC_GPU_FALLING,
     HC_GPU_ROUNDING,
     HC_GPU_GEMS,
+    HC_GPU_BOUNDS,
+    HC_GPU_GRADIENT,
     HC_GPU_SHADERS
 } hc_gpu_shader;
 

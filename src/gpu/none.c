@@ -63,6 +63,24 @@ hc_result hc_gpu_bake_pyramid(hc_gpu *gpu, hc_pyramid *pyramid, float *values, c
     return refuse(log);
 }
 
+hc_result hc_gpu_bake_bounds(hc_gpu *gpu, float *bounds, const hc_field *field, hc_extreme extreme,
+                             hc_log *log)
+{
+    (void)gpu;
+    (void)bounds;
+    (void)field;
+    (void)extreme;
+    return refuse(log);
+}
+
+hc_result hc_gpu_bake_gradient(hc_gpu *gpu, float *gradients, const hc_field *field, hc_log *log)
+{
+    (void)gpu;
+    (void)gradients;
+    (void)field;
+    return refuse(log);
+}
+
 const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu)
 {
     (void)gpu;

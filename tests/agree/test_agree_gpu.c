@@ -172,6 +172,29 @@ static void pyramids(void **state)
     }
 }
 
+static void bounds_and_slopes(void **state)
+{
+    (void)state;
+    skip_without_gpu();
+    for (int i = 0; i < 4 * SIZES; i++) {
+        const int   *size  = sizes[i % SIZES];
+        const size_t count = (size_t)size[0] * (size_t)size[1];
+        hc_field     field = field_of("noise", size[0], size[1], (hc_wrap)(i / SIZES));
+        for (int extreme = HC_MAXIMUM; extreme <= HC_MINIMUM; extreme++) {
+            hc_bake_bounds(by_cpu, &field, (hc_extreme)extreme);
+            assert_int_equal(hc_gpu_bake_bounds(gpu, by_gpu, &field, (hc_extreme)extreme, NULL),
+                             HC_OK);
+            assert_memory_equal(by_gpu, by_cpu, count * sizeof *by_cpu);
+        }
+        field.registration = i % 2 == 0 ? HC_TEXEL : HC_GRID;
+        hc_bake_gradient(by_cpu, &field);
+        assert_int_equal(hc_gpu_bake_gradient(gpu, by_gpu, &field, NULL), HC_OK);
+        for (size_t k = 0; k < 2 * count; k++) {
+            assert_true(by_gpu[k] == by_cpu[k]);
+        }
+    }
+}
+
 /* The same bytes of every kind of map, coded and not. */
 static void whole_maps(void **state)
 {
@@ -292,6 +315,7 @@ int main(void)
         cmocka_unit_test(every_wrap),
         cmocka_unit_test(drivers_that_do_not_round),
         cmocka_unit_test(pyramids),
+        cmocka_unit_test(bounds_and_slopes),
         cmocka_unit_test(whole_maps),
         cmocka_unit_test(a_larger_field),
         cmocka_unit_test(progress_and_cancelling),

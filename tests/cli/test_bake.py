@@ -195,7 +195,9 @@ class Contradictions(Case):
         for name, options in [("map.exr", ["--cones", "quad", "--wrap", "u"]),
                               ("map.png", ["--method", "quick-improved"]),
                               ("map.npy", ["--map", "relaxed"]),
-                              ("map.ktx2", ["--map", "pyramid", "--bits", "8"])]:
+                              ("map.ktx2", ["--map", "pyramid", "--bits", "8"]),
+                              ("map.dds", ["--map", "bounds", "--wrap", "v"]),
+                              ("map.tif", ["--map", "gradient"])]:
             with self.subTest(name=name):
                 figures = self.json("bake", "hills.pgm", "gl." + name, "--backend", "gl", *options)
                 if figures["backend"] == "cpu":
@@ -222,7 +224,7 @@ class Contradictions(Case):
                 self.assertEqual(self.read_npy("gl.npy"), self.read_npy("cpu.npy"))
 
     def test_opengl_has_nothing_to_do(self):
-        for options, says in [(["--map", "gradient"], "--map gradient"),
+        for options, says in [(["--map", "gradient"], "--map gradient in codes"),
                               (["--compat", "2006"], "--compat")]:
             self.refused("bake", self.hills(), "out.png", "--backend", "gl", *options, code=USAGE,
                          says=["--backend gl does nothing", says])

@@ -70,7 +70,7 @@ for language in core es; do
     done
 done
 
-for search in PYRAMID BRUTE EXACT QUICK FALLING ROUNDING GEMS; do
+for search in PYRAMID BRUTE EXACT QUICK FALLING ROUNDING GEMS BOUNDS GRADIENT; do
     for l2 in 0 1; do
         for sided in 0 1; do
             {

@@ -39,11 +39,6 @@ static int refuse_idle_options(hc_cli *cli)
                                of_cones[i], hc_map_kind_name(map->kind));
         }
     }
-    if (cli->settings.backend == HC_CLI_GL
-        && (map->kind == HC_MAP_GRADIENT || given(cli, "compat"))) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl does nothing for %s; leave it out",
-                           given(cli, "compat") ? "--compat" : "--map gradient");
-    }
     if (given(cli, "gems-steps") && map->cone.method != HC_METHOD_GEMS) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--gems-steps needs --map relaxed --method gems");
     }
@@ -166,6 +161,17 @@ static int refuse_levels(hc_cli *cli, const hc_container *container)
     return HC_CLI_DONE;
 }
 
+static int refuse_idle_backend(hc_cli *cli)
+{
+    const hc_map_options *map = &cli->settings.map;
+    if (cli->settings.backend == HC_CLI_GL
+        && (map->compat2006 || (map->kind == HC_MAP_GRADIENT && map->bits != 32))) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl does nothing for %s; leave it out",
+                           map->compat2006 ? "--compat" : "--map gradient in codes");
+    }
+    return HC_CLI_DONE;
+}
+
 /* The library's own checks, on a tiny field: what they refuse no input can make right. */
 static int refuse_nonsense(hc_cli *cli)
 {
@@ -199,6 +205,7 @@ static int resolve(hc_cli *cli)
     code     = code == HC_CLI_DONE ? resolve_compat(cli) : code;
     code     = code == HC_CLI_DONE ? resolve_depth(cli, container) : code;
     code     = code == HC_CLI_DONE ? refuse_levels(cli, container) : code;
+    code     = code == HC_CLI_DONE ? refuse_idle_backend(cli) : code;
     code     = code == HC_CLI_DONE ? refuse_nonsense(cli) : code;
     code     = code == HC_CLI_DONE ? hc_cli_check_output(cli, settings->paths[1]) : code;
     settings->map.cone.threads  = settings->threads;
