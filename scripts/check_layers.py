@@ -28,6 +28,7 @@ ARROWS = {
 PUBLIC = {
     "version.h": "base",
     "result.h": "base",
+    "mesh.h": "base",
     "field.h": "field",
     "ray.h": "field",
     "maps.h": "maps",

@@ -104,7 +104,7 @@ $program trace data/jacksboro_fault_dem.pgm "${place[@]}" --eye 15000,-35000,500
 for tour in fly walk; do
     doing "drawing the terrain: $tour"
     $program render terrain data/jacksboro_fault_dem.pgm --spacing 74.5,92.5 --tour $tour \
-        --out $out/terrain_$tour.png --overwrite -q
+        --objects data/jacksboro_objects.txt --out $out/terrain_$tour.png --overwrite -q
 done
 doing ""
 cat <<END

@@ -93,8 +93,9 @@ terrain() {
         --out $gallery/terrain_$name.png --overwrite -q "$@"
 }
 
-terrain fly --size 960x540
-terrain walk --tour walk --size 960x540
+for tour in fly walk; do
+    terrain $tour --tour $tour --size 960x540 --objects data/jacksboro_objects.txt
+done
 for tour in up orbit; do
     terrain $tour --tour $tour --size 480x270
 done

@@ -5,6 +5,7 @@
 #define HEIGHTCAST_IO_H
 
 #include <heightcast/maps.h>
+#include <heightcast/mesh.h>
 #include <heightcast/ray.h>
 
 #ifdef __cplusplus
@@ -175,6 +176,13 @@ typedef struct hc_file_info {
 /* Read what the header says, decoding no more than the container needs. */
 HC_API hc_result hc_read_file_info(hc_file_info *info, const char *path, const hc_limits *limits,
                                    hc_log *log);
+
+/* ---- meshes ---------------------------------------------------------------------------------- */
+
+/* Load a Wavefront OBJ: its vertices and faces, of polygons fans; all else is passed over. Destroy
+ * with hc_mesh_destroy; *mesh is NULL after an error, which names the line. */
+HC_API hc_result hc_load_mesh(hc_mesh **mesh, const char *path, const hc_limits *limits,
+                              hc_log *log);
 
 #ifdef __cplusplus
 }

@@ -19,6 +19,7 @@
 #ifndef HEIGHTCAST_TERRAIN_H
 #define HEIGHTCAST_TERRAIN_H
 
+#include <heightcast/mesh.h>
 #include <heightcast/render.h>
 
 #ifdef __cplusplus
@@ -40,28 +41,48 @@ typedef enum hc_ground {
 } hc_ground;
 HC_API const char *hc_ground_name(hc_ground ground); /* as above; NULL beyond the last. Static */
 
+/* A mesh in the landscape. It and the terrain hide each other, and throw shadows on each other. */
+typedef struct hc_object {
+    const hc_mesh *mesh;      /* read by hc_terrain_create only               */
+    double         place[3];  /* of the mesh's origin, in the world           */
+    bool           grounded;  /* place[2] counts from the ground there        */
+    double         size;      /* world units per unit of the mesh  [> 0] 0: 1 */
+    double         turn;      /* degrees about z, from x towards y            */
+    float          colour[3]; /* linear light. All zero: 0.45 0.16 0.10       */
+} hc_object;
+
 typedef struct hc_terrain_scene {
-    hc_field         field; /* heights are borrowed until the terrain is destroyed; no wrap */
-    hc_trace_options trace; /* method and what it needs, surface, open_sides, steps, refinements;
-                               steps 0 of cone-loop: 512. The placement must be zero, threads do not
-                               count */
-    double           spacing[2]; /* world units between samples along x and y  [>= 0]
-                               0 0: those of field.elevation; where that has none, the longer side is
-                               32 times the height of the terrain */
-    double       low, high;    /* z of heights 0 and 1  [low < high]  0 0: those of field.elevation;
-                               where that has none, 0 and 1 */
-    double       exaggeration; /* of z  [> 0, <= 1000]  0: 1 */
-    double       offset[3]; /* of the whole                                                       */
-    hc_ground    ground;
-    const float *image; /* ground image: image_width * image_height * 3, row-major, linear light,
-                               one texel's corner at u = v = 0; borrowed like the heights          */
+    /* Heights are borrowed until the terrain is destroyed; no wrap. */
+    hc_field field;
+    /* Method and what it needs, surface, open_sides, steps, refinements; steps 0 of cone-loop: 512.
+     * The placement must be zero, threads do not count. */
+    hc_trace_options trace;
+    /* World units between samples along x and y  [>= 0]. 0 0: those of field.elevation; where that
+     * has none, the longer side is 32 times the height of the terrain. */
+    double spacing[2];
+    /* z of heights 0 and 1  [low < high]. 0 0: those of field.elevation; where that has none, 0 and
+     * 1. */
+    double low, high;
+    double exaggeration; /* of z  [> 0, <= 1000]  0: 1 */
+    double offset[3];    /* of the whole               */
+
+    hc_ground ground;
+    /* ground image: image_width * image_height * 3, row-major, linear light, over the whole field;
+     * borrowed like the heights. */
+    const float *image;
     int          image_width, image_height;
-    bool         blocky; /* colours are those of the nearest sample or texel, normals those of the
-                               patch: nothing is smoothed */
-    double       sun[3]; /* direction to it, any length. All zero: -0.75 0.5 0.36             */
-    bool         no_shadows;
-    float        haze; /* distance over which 1 / e of the ground's light comes through
-                               [> 0]  0: 2.2 times the longer side; INFINITY: clear air          */
+    /* Nothing is smoothed: colours are those of the nearest sample or texel, normals those of the
+     * patch. */
+    bool blocky;
+
+    const hc_object *objects; /* object_count of them, read by hc_terrain_create only */
+    int              object_count;
+
+    double sun[3]; /* direction to it, any length. All zero: -0.75 0.5 0.36 */
+    bool   no_shadows;
+    /* Distance in the air over the terrain that leaves about 1 / e of the light  [> 0]  0: 2.2
+     * times the longer side; INFINITY: clear air. */
+    float haze;
 } hc_terrain_scene;
 
 typedef struct hc_terrain hc_terrain;
@@ -72,7 +93,7 @@ typedef struct hc_terrain hc_terrain;
  *          zero: shaded, by the CPU
  *
  * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render, and
- * HC_ERROR_UNSUPPORTED for steps and open sides. */
+ * HC_ERROR_UNSUPPORTED for steps, open sides and objects. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);
@@ -80,7 +101,7 @@ HC_API void      hc_terrain_destroy(hc_terrain *terrain);
 /* Draw what `camera` sees. Zero eye and target: hc_terrain_tour's fly at 0; fov 0: 60.
  *
  * The CPU gives the same bytes on every machine and for every number of threads, and draws for many
- * callers at once. GL agrees with it but for rounding in float32 (docs/algorithms.md, section 22.6);
+ * callers at once. GL agrees with it but for rounding in float32 (docs/algorithms.md, section 22.7);
  * the caller's thread has another context current afterwards, and a terrain draws for one caller at
  * a time. An eye under the ground sees
  * only that. picture->figures: `entered` counts rays that come to the field's box, `within` those of

@@ -170,5 +170,6 @@ hc_result hc_load_field_source(hc_field *field, const hc_source *source,
                                const hc_load_options *options, hc_log *log);
 hc_result hc_load_map_source(hc_map *map, const hc_source *source, hc_log *log);
 hc_result hc_read_source_info(hc_file_info *info, const hc_source *source, hc_log *log);
+hc_result hc_load_mesh_source(hc_mesh **mesh, const hc_source *source, hc_log *log);
 
 #endif

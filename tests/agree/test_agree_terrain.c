@@ -200,7 +200,7 @@ static void views(void **state)
 
 /* ---- hits ------------------------------------------------------------------------------------ */
 
-/* docs/algorithms.md, section 22.6, has the bound, which is for angles of at least 1/64 between ray
+/* docs/algorithms.md, section 22.7, has the bound, which is for angles of at least 1/64 between ray
  * and surface. Sharper ones are as rare as edges. */
 static void depths_agree(void **state)
 {

@@ -149,7 +149,7 @@ class Terrain(Case):
                            ("1 2 3 4 5 6 7 8\n", "line 1"), ("1 2 3 1 2 3\n", "must differ"),
                            ("1 2 3 4 5 6 171\n", "170"), ("# nothing\n", "no camera"),
                            ("1 2 3 4 5 inf\n", "line 1"), ("one\n", "line 1"),
-                           ("1 2 3 4 5 6" + 600 * " " + "\n", "line 1")]:
+                           ("1 2 3 4 5 6" + 5000 * " " + "\n", "line 1")]:
             with self.subTest(text=text[:30]):
                 self.path("way.txt").write_text(text)
                 self.refuse("--out", "a.png", "--path", "way.txt", code=BAD_FILE,
@@ -215,6 +215,38 @@ class Terrain(Case):
         figures = self.render("--backend", "gl", "--method", "fast")
         self.assertEqual(figures["backend"], "cpu")
         self.assertIn("the CPU draws", figures["warnings"][-1])
+
+    def test_objects(self):
+        self.path("things").mkdir()
+        self.path("things/roof.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n")
+        self.path("things/all.txt").write_text("# what stands here\nball 200 -150 ground+20 60\n"
+                                               "roof.obj 240,-150,400,80 45\n"
+                                               "house 100 -150 ground 60 10 0.1 0.2 0.9\n")
+        plain = self.picture("--spacing", "20", "--tour", "orbit")
+        with_all = self.picture("--spacing", "20", "--tour", "orbit", "--objects", "things/all.txt")
+        self.assertNotEqual(plain, with_all)
+        blue = [row[i : i + 3] for row in with_all[2] for i in range(0, len(row), 3)
+                if row[i + 2] > row[i] + 60 and row[i + 2] > row[i + 1] + 40]
+        self.assertGreater(len(blue), 0)
+        figures = self.render("--backend", "gl", "--objects", "things/all.txt")
+        self.assertEqual(figures["backend"], "cpu")
+
+    def test_bad_objects(self):
+        for text, says in [("ball 1 2 3\n", "line 1"), ("\nball 1 2 3 0\n", "line 2"),
+                           ("ball 1 2 grund 4\n", "line 1"), ("ball 1 2 ground+x 4\n", "line 1"),
+                           ("ball 1 2 3 4 5 6\n", "line 1"), ("ball 1 2 3 4 5 0 0 2\n", "line 1"),
+                           ("ball nan 2 3 4\n", "line 1"), ("ball 1 2 3 4 5 0 0 1 1\n", "line 1")]:
+            with self.subTest(text=text):
+                self.path("all.txt").write_text(text)
+                self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
+                            says=["all.txt", says])
+        self.path("bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
+        self.path("all.txt").write_text("bad.obj 1 2 3 4\n")
+        self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
+                    says=["bad.obj", "line 2"])
+        self.path("all.txt").write_text("none.obj 1 2 3 4\n")
+        self.refuse("--out", "a.png", "--objects", "all.txt", code=INPUT_OUTPUT, says="none.obj")
+        self.refuse("--out", "a.png", "--objects", "none.txt", code=INPUT_OUTPUT, says="none.txt")
 
     def test_an_eye_under_the_ground_is_told(self):
         figures = self.render("--spacing", "20", "--eye", "200,-200,-50", "--at", "300,-200,-50")

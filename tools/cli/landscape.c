@@ -87,6 +87,9 @@ static int load_ground(hc_cli_landscape *landscape, hc_cli *cli)
                                   &landscape->scene.image_height);
     }
     if (code == HC_CLI_DONE) {
+        code = hc_cli_objects_load(&landscape->objects, cli);
+    }
+    if (code == HC_CLI_DONE) {
         code = hc_cli_scene_ratios(&landscape->ground, cli, needs);
     }
     hc_cli_phase(cli, NULL);
@@ -120,6 +123,8 @@ static void choose_scene(hc_cli_landscape *landscape, const hc_cli *cli)
     scene->exaggeration      = (double)settings->terrain.exaggeration;
     scene->ground            = ground_of(settings);
     scene->image             = landscape->image;
+    scene->objects           = landscape->objects.objects;
+    scene->object_count      = landscape->objects.count;
     scene->blocky            = settings->terrain.blocky;
     scene->no_shadows        = settings->render.shadows != 0;
     scene->haze              = settings->terrain.haze;
@@ -140,6 +145,7 @@ int hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli)
 
 void hc_cli_landscape_free(hc_cli_landscape *landscape)
 {
+    hc_cli_objects_free(&landscape->objects);
     free(landscape->image);
     hc_cli_scene_free(&landscape->ground);
 }

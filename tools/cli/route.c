@@ -1,39 +1,15 @@
 #include "route.h"
 
 #include "options.h"
+#include "textfile.h"
 
-#include <ctype.h>
-#include <errno.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { KEYS_MAX = 100000, LINE_MAX = 512, NUMBERS = 7, SAMPLES = 4 };
+enum { KEYS_MAX = 100000, NUMBERS = 7, SAMPLES = 4 };
 
 /* ---- path files ------------------------------------------------------------------------------ */
-
-/* The numbers on a line; -1: there is something else. */
-static int read_numbers(double numbers[NUMBERS], char *line)
-{
-    int count                = 0;
-    line[strcspn(line, "#")] = '\0';
-    for (char *at = line;;) {
-        char *end = at;
-        while (isspace((unsigned char)*at) || *at == ',') {
-            at++;
-        }
-        if (*at == '\0') {
-            return count;
-        }
-        const double value = strtod(at, &end);
-        if (end == at || !isfinite(value) || count == NUMBERS) {
-            return -1;
-        }
-        numbers[count++] = value;
-        at               = end;
-    }
-}
 
 static bool set_key(hc_camera *key, const double numbers[NUMBERS], int count, float fov)
 {
@@ -55,21 +31,21 @@ static bool grow(hc_cli_route *route)
     return keys != NULL;
 }
 
-static int read_line(hc_cli_route *route, hc_cli *cli, char *line, int number)
+static int take_line(void *user, hc_cli *cli, char **words, int count, int line)
 {
-    const char *path = cli->settings.terrain.path;
-    double      numbers[NUMBERS];
-    const bool  whole = strchr(line, '\n') != NULL || strlen(line) < LINE_MAX - 1;
-    const int   count = whole ? read_numbers(numbers, line) : -1;
-    if (count == 0) {
-        return HC_CLI_DONE;
+    hc_cli_route *route = user;
+    const char   *path  = cli->settings.terrain.path;
+    double        numbers[NUMBERS];
+    bool          good = count == NUMBERS || count == NUMBERS - 1;
+    for (int i = 0; good && i < count; i++) {
+        good = hc_cli_word_number(&numbers[i], words[i]);
     }
-    if (count < NUMBERS - 1) {
+    if (!good) {
         return hc_cli_fail(
             cli, HC_CLI_BAD_FILE,
             "%s, line %d: a camera is 6 or 7 finite numbers: eye x y z, target x y z, "
             "angle",
-            path, number);
+            path, line);
     }
     if (route->count == KEYS_MAX) {
         return hc_cli_fail(cli, HC_CLI_MEMORY, "%s: more than %d cameras", path, KEYS_MAX);
@@ -81,7 +57,7 @@ static int read_line(hc_cli_route *route, hc_cli *cli, char *line, int number)
         return hc_cli_fail(cli, HC_CLI_BAD_FILE,
                            "%s, line %d: eye and target must differ, and the angle be above 0, at "
                            "most 170",
-                           path, number);
+                           path, line);
     }
     route->count++;
     return HC_CLI_DONE;
@@ -90,26 +66,14 @@ static int read_line(hc_cli_route *route, hc_cli *cli, char *line, int number)
 int hc_cli_route_load(hc_cli_route *route, hc_cli *cli)
 {
     const char *path = cli->settings.terrain.path;
-    char        line[LINE_MAX];
-    int         code = HC_CLI_DONE;
     *route           = (hc_cli_route){ .keys = NULL };
     if (path == NULL) {
         return HC_CLI_DONE;
     }
-    FILE *file = fopen(path, "r");
-    if (file == NULL) {
-        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot read %s: %s", path, strerror(errno));
-    }
-    for (int i = 1; code == HC_CLI_DONE && fgets(line, sizeof line, file) != NULL; i++) {
-        code = read_line(route, cli, line, i);
-    }
-    if (code == HC_CLI_DONE && ferror(file)) {
-        code = hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot read %s: %s", path, strerror(errno));
-    } else if (code == HC_CLI_DONE && route->count == 0) {
-        code = hc_cli_fail(cli, HC_CLI_BAD_FILE, "%s: there is no camera in it", path);
-    }
-    (void)fclose(file);
-    return code;
+    const int code = hc_cli_read_lines(cli, path, take_line, route);
+    return code == HC_CLI_DONE && route->count == 0
+               ? hc_cli_fail(cli, HC_CLI_BAD_FILE, "%s: there is no camera in it", path)
+               : code;
 }
 
 void hc_cli_route_free(hc_cli_route *route)

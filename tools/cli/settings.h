@@ -64,7 +64,7 @@ typedef struct hc_cli_terrain {
     double      offset[3], moment;
     bool        blocky;
     int         frames; /* 0: one picture, at `moment` */
-    const char *path;
+    const char *path, *objects;
     hc_cli_size tiles; /* columns and rows */
     hc_seams    seams;
 } hc_cli_terrain;

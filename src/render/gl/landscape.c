@@ -29,11 +29,13 @@ static hc_result check_method(const hc_terrain *terrain, hc_log *log)
                        "scene.trace.method is %s, which is the CPU's alone",
                        hc_trace_method_name(trace->method));
     }
-    return trace->surface == HC_SURFACE_BILINEAR && !trace->open_sides
-               ? HC_OK
-               : hc_fail(log, HC_ERROR_UNSUPPORTED,
-                         "scene.trace asks for %s, which are the CPU's alone",
-                         trace->open_sides ? "open sides" : "steps");
+    const char *more = trace->open_sides                    ? "open sides"
+                       : trace->surface == HC_SURFACE_STEPS ? "steps"
+                       : terrain->bodies != NULL            ? "objects"
+                                                            : NULL;
+    return more == NULL ? HC_OK
+                        : hc_fail(log, HC_ERROR_UNSUPPORTED,
+                                  "the scene has %s, which are the CPU's alone", more);
 }
 
 static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)

@@ -14,10 +14,11 @@ enum { PIECE = 4096 }; /* rays at a time */
 
 /* Of one thread. */
 typedef struct scratch {
-    hc_ray  *rays;
-    hc_hit  *hits, *exact;
-    hc_ray  *to_sun;
-    uint8_t *dark;
+    hc_ray    *rays;
+    hc_hit    *hits, *exact;
+    hc_glance *glances;
+    hc_ray    *to_sun;
+    uint8_t   *dark;
 } scratch;
 
 /* Rays of a row of pixels, from `first`. */
@@ -53,11 +54,42 @@ static void aim(hc_ray *rays, const job *j, piece p)
 
 static void cast_to_sun(const scratch *s, const job *j, int count)
 {
+    const hc_terrain *terrain = j->terrain;
     for (int i = 0; i < count; i++) {
-        const hc_glance glance = { s->rays[i], s->hits[i] };
-        s->to_sun[i]           = hc_terrain_sun_ray(j->terrain, &glance);
+        s->to_sun[i] = hc_terrain_sun_ray(terrain, &s->glances[i]);
     }
-    hc_trace_any_many(j->terrain->tracer, s->dark, s->to_sun, (size_t)count);
+    hc_trace_any_many(terrain->tracer, s->dark, s->to_sun, (size_t)count);
+    for (int i = 0; terrain->bodies != NULL && i < count; i++) {
+        const bool asks = s->dark[i] == 0 && s->to_sun[i].tmin <= s->to_sun[i].tmax;
+        s->dark[i] |= asks && hc_terrain_body_shades(terrain, &s->glances[i]) ? 1 : 0;
+    }
+}
+
+/* The field has no end below, its picture does. */
+static void cut_below(hc_hit *hits, int count)
+{
+    for (int i = 0; i < count; i++) {
+        if ((hits[i].flags & HC_HIT_SIDE) != 0 && (double)hits[i].height < -HC_TERRAIN_BASE) {
+            hits[i].t = INFINITY;
+        }
+    }
+}
+
+static void cast(const scratch *s, const job *j, int count)
+{
+    const hc_terrain *terrain = j->terrain;
+    hc_trace_nearest_many(terrain->tracer, s->hits, s->rays, (size_t)count);
+    cut_below(s->hits, count);
+    for (int i = 0; i < count; i++) {
+        s->glances[i] = (hc_glance){ s->rays[i], s->hits[i], { .t = INFINITY } };
+        if (terrain->bodies != NULL) {
+            hc_terrain_find_body(&s->glances[i], terrain);
+        }
+    }
+    if (terrain->exact != NULL) {
+        hc_trace_nearest_many(terrain->exact, s->exact, s->rays, (size_t)count);
+        cut_below(s->exact, count);
+    }
 }
 
 /* ---- pixels -------------------------------------------------------------------------------- */
@@ -74,43 +106,26 @@ static void add(const scratch *s, const job *j, piece p)
     const hc_terrain *terrain = j->terrain;
     hc_pixel         *pixels  = &j->pixels[(size_t)p.row * (size_t)j->eye->width];
     for (int i = 0; i < p.count; i++) {
-        const hc_glance glance = { s->rays[i], s->hits[i] };
-        double          direction[3];
-        hc_sample       sample;
+        const hc_glance *glance = &s->glances[i];
+        double           direction[3];
+        hc_sample        sample;
         for (int k = 0; k < 3; k++) {
-            direction[k] = (double)glance.ray.direction[k];
+            direction[k] = (double)glance->ray.direction[k];
         }
-        hc_terrain_see(&sample, terrain, &glance, j->footprint, s->dark[i] == 0);
+        hc_terrain_see(&sample, terrain, glance, j->footprint, s->dark[i] == 0);
         if (terrain->exact != NULL) {
-            sample.exact = s->exact[i].t;
+            sample.exact = fminf(s->exact[i].t, (float)glance->body.t);
         }
         hc_terrain_add(&pixels[(p.first + i) / j->eye->samples], terrain, j->eye, &sample,
                        direction);
     }
 }
 
-/* The field has no end below, its picture does. */
-static void cut_below(hc_hit *hits, int count)
-{
-    for (int i = 0; i < count; i++) {
-        if ((hits[i].flags & HC_HIT_SIDE) != 0 && (double)hits[i].height < -HC_TERRAIN_BASE) {
-            hits[i].t = INFINITY;
-        }
-    }
-}
-
 static void draw_piece(const scratch *s, const job *j, piece p)
 {
-    const hc_terrain *terrain = j->terrain;
-    const size_t      count   = (size_t)p.count;
     aim(s->rays, j, p);
-    hc_trace_nearest_many(terrain->tracer, s->hits, s->rays, count);
-    cut_below(s->hits, p.count);
-    if (terrain->exact != NULL) {
-        hc_trace_nearest_many(terrain->exact, s->exact, s->rays, count);
-        cut_below(s->exact, p.count);
-    }
-    if (!terrain->scene.no_shadows) {
+    cast(s, j, p.count);
+    if (!j->terrain->scene.no_shadows) {
         cast_to_sun(s, j, p.count);
     }
     add(s, j, p);
@@ -131,13 +146,14 @@ static void draw_row(void *context, int row, int worker)
 
 static bool take(scratch *s, bool exact)
 {
-    s->rays   = malloc(PIECE * sizeof *s->rays);
-    s->hits   = malloc(PIECE * sizeof *s->hits);
-    s->exact  = exact ? malloc(PIECE * sizeof *s->exact) : NULL;
-    s->to_sun = malloc(PIECE * sizeof *s->to_sun);
-    s->dark   = calloc(PIECE, sizeof *s->dark);
-    return s->rays != NULL && s->hits != NULL && (s->exact != NULL || !exact) && s->to_sun != NULL
-           && s->dark != NULL;
+    s->rays    = malloc(PIECE * sizeof *s->rays);
+    s->hits    = malloc(PIECE * sizeof *s->hits);
+    s->exact   = exact ? malloc(PIECE * sizeof *s->exact) : NULL;
+    s->glances = malloc(PIECE * sizeof *s->glances);
+    s->to_sun  = malloc(PIECE * sizeof *s->to_sun);
+    s->dark    = calloc(PIECE, sizeof *s->dark);
+    return s->rays != NULL && s->hits != NULL && (s->exact != NULL || !exact) && s->glances != NULL
+           && s->to_sun != NULL && s->dark != NULL;
 }
 
 static void release(scratch *s)
@@ -145,6 +161,7 @@ static void release(scratch *s)
     free(s->rays);
     free(s->hits);
     free(s->exact);
+    free(s->glances);
     free(s->to_sun);
     free(s->dark);
 }

@@ -18,8 +18,37 @@ static bool is_cut(const hc_terrain *terrain, const hc_hit *hit)
     return (hit->flags & HC_HIT_INSIDE) != 0 || ((hit->flags & HC_HIT_SIDE) != 0 && !faces);
 }
 
+static bool is_body(const hc_glance *glance)
+{
+    return glance->body.t < INFINITY;
+}
+
+static double distance_of(const hc_glance *glance)
+{
+    return is_body(glance) ? glance->body.t : (double)glance->hit.t;
+}
+
+static void split_ray(double origin[3], double direction[3], const hc_ray *ray)
+{
+    for (int k = 0; k < 3; k++) {
+        origin[k]    = (double)ray->origin[k];
+        direction[k] = (double)ray->direction[k];
+    }
+}
+
+static void point_of(double point[3], const hc_glance *glance)
+{
+    double origin[3], direction[3];
+    split_ray(origin, direction, &glance->ray);
+    hc_add_scaled(point, origin, distance_of(glance), direction);
+}
+
 static void normal_at(double normal[3], const hc_terrain *terrain, const hc_glance *glance)
 {
+    if (is_body(glance)) {
+        memcpy(normal, glance->body.normal, 3 * sizeof *normal);
+        return;
+    }
     const bool flat = terrain->scene.blocky || is_cut(terrain, &glance->hit)
                       || terrain->scene.trace.surface == HC_SURFACE_STEPS
                       || terrain->scene.trace.method == HC_TRACE_QDM;
@@ -51,16 +80,12 @@ static double way_out(const hc_terrain *terrain, const double point[3])
 hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance)
 {
     hc_ray ray = { .tmin = 1.0F, .direction = { 0.0F, 0.0F, 1.0F } };
-    double point[3], direction[3], origin[3], normal[3];
-    if (!(glance->hit.t < INFINITY)) {
+    double point[3], origin[3], normal[3];
+    if (!(distance_of(glance) < INFINITY)) {
         return ray;
     }
+    point_of(point, glance);
     normal_at(normal, terrain, glance);
-    for (int k = 0; k < 3; k++) {
-        point[k]     = (double)glance->ray.origin[k];
-        direction[k] = (double)glance->ray.direction[k];
-    }
-    hc_add_scaled(point, point, (double)glance->hit.t, direction);
     if (hc_dot(normal, terrain->sun) <= 0.0) {
         return ray; /* it faces away */
     }
@@ -75,6 +100,33 @@ hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance)
     return ray;
 }
 
+/* ---- objects ------------------------------------------------------------------------------- */
+
+/* Rays leave an object so far from it: what rounding of the largest coordinate may do. */
+static double body_slip(const hc_terrain *terrain)
+{
+    return 0x1p-24 * terrain->side;
+}
+
+void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain)
+{
+    double origin[3], direction[3];
+    split_ray(origin, direction, &glance->ray);
+    glance->body =
+        hc_bodies_nearest(terrain->bodies, origin, direction, 0.0, (double)glance->hit.t);
+}
+
+bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance)
+{
+    double point[3], normal[3];
+    point_of(point, glance);
+    normal_at(normal, terrain, glance);
+    return hc_dot(normal, terrain->sun) > 0.0
+           && hc_bodies_nearest(terrain->bodies, point, terrain->sun, body_slip(terrain), INFINITY)
+                      .t
+                  < INFINITY;
+}
+
 /* ---- light --------------------------------------------------------------------------------- */
 
 static void light(double rgb[3], const hc_terrain *terrain, const double normal[3], bool lit)
@@ -86,20 +138,30 @@ static void light(double rgb[3], const hc_terrain *terrain, const double normal[
     }
 }
 
-static void see_ground(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
-                       double footprint, bool lit)
+static void colour_at(double rgb[3], double normal[3], const hc_terrain *terrain,
+                      const hc_glance *glance, double footprint)
 {
-    const double distance = (double)glance->hit.t;
+    if (is_body(glance)) {
+        for (int k = 0; k < 3; k++) {
+            rgb[k] = (double)terrain->colours[glance->body.object][k];
+        }
+    } else if (is_cut(terrain, &glance->hit)) {
+        memcpy(rgb, CUT_GROUND, sizeof CUT_GROUND);
+    } else {
+        hc_ground_colour(rgb, terrain, &glance->hit, normal, footprint);
+    }
+}
+
+static void see_surface(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
+                        double footprint, bool lit)
+{
+    const double distance = distance_of(glance);
     double       normal[3], rgb[3];
     normal_at(normal, terrain, glance);
     for (int k = 0; k < 3; k++) {
         sample->normal[k] = (float)normal[k];
     }
-    if (is_cut(terrain, &glance->hit)) {
-        memcpy(rgb, CUT_GROUND, sizeof rgb);
-    } else {
-        hc_ground_colour(rgb, terrain, &glance->hit, normal, footprint * distance);
-    }
+    colour_at(rgb, normal, terrain, glance, footprint * distance);
     light(rgb, terrain, normal, lit);
     hc_haze(rgb, terrain, &glance->ray, distance);
     for (int k = 0; k < 3; k++) {
@@ -107,25 +169,38 @@ static void see_ground(hc_sample *sample, const hc_terrain *terrain, const hc_gl
     }
 }
 
+/* Of a ray that comes to an object nothing is said about its way over the ground. */
+static void take_numbers(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance)
+{
+    const hc_hit *hit = &glance->hit;
+    double        point[3];
+    if (is_body(glance)) {
+        point_of(point, glance);
+        *sample = (hc_sample){ .distance = (float)glance->body.t,
+                               .height   = (float)((point[2] - terrain->placement.offset[2])
+                                                 / terrain->placement.scale_z) };
+    } else {
+        *sample =
+            (hc_sample){ .distance    = hit->t,
+                         .height      = hit->height,
+                         .steps       = (float)hit->steps,
+                         .crossings   = (float)(hit->crossings > 0 ? hit->crossings : hit->steps),
+                         .entered     = hit->t < INFINITY || hit->steps > 0,
+                         .unconverged = (hit->flags & HC_HIT_UNCONVERGED) != 0 };
+    }
+    sample->exact = INFINITY;
+}
+
 void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
                     double footprint, bool lit)
 {
-    const hc_hit *hit = &glance->hit;
-    double        direction[3], sky[3];
-    *sample = (hc_sample){ .distance    = hit->t,
-                           .exact       = INFINITY,
-                           .height      = hit->height,
-                           .steps       = (float)hit->steps,
-                           .crossings   = (float)(hit->crossings > 0 ? hit->crossings : hit->steps),
-                           .entered     = hit->t < INFINITY || hit->steps > 0,
-                           .unconverged = (hit->flags & HC_HIT_UNCONVERGED) != 0 };
-    if (hit->t < INFINITY) {
-        see_ground(sample, terrain, glance, footprint, lit);
+    double origin[3], direction[3], sky[3];
+    take_numbers(sample, terrain, glance);
+    if (distance_of(glance) < INFINITY) {
+        see_surface(sample, terrain, glance, footprint, lit);
         return;
     }
-    for (int k = 0; k < 3; k++) {
-        direction[k] = (double)glance->ray.direction[k];
-    }
+    split_ray(origin, direction, &glance->ray);
     hc_sky_colour(sky, terrain, direction);
     for (int k = 0; k < 3; k++) {
         sample->rgb[k] = (float)sky[k];

@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SIDE_MAX = 65536, SAMPLES_MAX = 256 };
+enum { SIDE_MAX = 65536, SAMPLES_MAX = 256, OBJECTS_MAX = 1 << 20 };
 
 static const float FOV = 60.0F;
 
@@ -50,6 +50,57 @@ static hc_result build(hc_terrain *terrain, hc_log *log)
     return result;
 }
 
+/* ---- objects ------------------------------------------------------------------------------- */
+
+static hc_result check_object(const hc_object *object, int index, hc_log *log)
+{
+    CHECK(check_point("object.place", object->place, log));
+    if (object->mesh == NULL || !(object->size >= 0.0 && object->size <= 1e9)
+        || !(fabs(object->turn) <= 1e9)) {
+        return hc_fail(log, HC_ERROR_ARGUMENT,
+                       "object %d has %s, size %g and turn %g; a size is above 0, a turn finite",
+                       index, object->mesh != NULL ? "a mesh" : "no mesh", object->size,
+                       object->turn);
+    }
+    return hc_mesh_check(object->mesh, log);
+}
+
+static void set_colour(float colour[3], const hc_object *object)
+{
+    static const float paint[3] = { 0.45F, 0.16F, 0.10F };
+    const bool         given =
+        object->colour[0] > 0.0F || object->colour[1] > 0.0F || object->colour[2] > 0.0F;
+    memcpy(colour, given ? object->colour : paint, sizeof paint);
+}
+
+static hc_result put_objects(hc_terrain *terrain, hc_log *log)
+{
+    const int        count   = terrain->scene.object_count;
+    const hc_object *objects = terrain->scene.objects;
+    CHECK(check_whole("scene.object_count", count, 0, OBJECTS_MAX, log));
+    for (int i = 0; i < count; i++) {
+        CHECK(check_object(&objects[i], i, log));
+    }
+    double(*places)[3] = count > 0 ? malloc((size_t)count * sizeof *places) : NULL;
+    terrain->colours   = count > 0 ? malloc((size_t)count * sizeof *terrain->colours) : NULL;
+    if (count > 0 && (places == NULL || terrain->colours == NULL)) {
+        free(places);
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for %d objects", count);
+    }
+    for (int i = 0; i < count; i++) {
+        const double *p = objects[i].place;
+        memcpy(places[i], p, sizeof places[i]);
+        places[i][2] += objects[i].grounded ? hc_terrain_ground(terrain, p[0], p[1]) : 0.0;
+        set_colour(terrain->colours[i], &objects[i]);
+    }
+    const hc_result result = count > 0 ? hc_bodies_create(&terrain->bodies, objects,
+                                                          (const double(*)[3])places, count, log)
+                                       : HC_OK;
+    free(places);
+    terrain->scene.objects = NULL; /* they may go */
+    return result;
+}
+
 hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                             const hc_render_options *options, hc_log *log)
 {
@@ -60,6 +111,9 @@ hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
     hc_result result = hc_site_set(*terrain, scene, options, log);
     if (result == HC_OK) {
         result = build(*terrain, log);
+    }
+    if (result == HC_OK) {
+        result = put_objects(*terrain, log);
     }
     if (result == HC_OK && (*terrain)->options.backend == HC_BACKEND_GL) {
         result = hc_terrain_gl_make(&(*terrain)->gl, *terrain, log);
@@ -77,6 +131,8 @@ void hc_terrain_destroy(hc_terrain *terrain)
         hc_terrain_gl_free(terrain->gl);
         hc_tracer_destroy(terrain->tracer);
         hc_tracer_destroy(terrain->exact);
+        hc_bodies_destroy(terrain->bodies);
+        free(terrain->colours);
         free(terrain);
     }
 }

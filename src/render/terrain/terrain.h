@@ -6,16 +6,19 @@
 
 #include "../eye.h"
 #include "../sums.h"
+#include "bodies.h"
 
 struct hc_terrain {
-    hc_terrain_scene      scene; /* defaults resolved */
-    hc_render_options     options;
-    hc_placement          placement;
-    double                low[3], high[3]; /* corners of the box                             */
-    double                side;            /* the longer one, in the world                   */
-    hc_tracer            *tracer, *exact;  /* exact: for views that compare, else NULL       */
-    struct hc_terrain_gl *gl;              /* NULL: the CPU draws                            */
-    double                sun[3];          /* unit                                           */
+    hc_terrain_scene  scene; /* defaults resolved */
+    hc_render_options options;
+    hc_placement      placement;
+    double            low[3], high[3]; /* corners of the box                             */
+    double            side;            /* the longer one, in the world                   */
+    hc_tracer        *tracer, *exact;  /* exact: for views that compare, else NULL       */
+    hc_bodies        *bodies;          /* NULL: there are no objects                     */
+    float (*colours)[3];               /* of the objects                                 */
+    struct hc_terrain_gl *gl;          /* NULL: the CPU draws                            */
+    double                sun[3];      /* unit                                           */
     double shadow_slip; /* a shadow's cause lies at least so far before the lit point */
     double slack;       /* hits farther from the exact ones are wrong         */
 };
@@ -26,9 +29,16 @@ hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
 
 /* A ray and what it came to. */
 typedef struct hc_glance {
-    hc_ray ray; /* direction of unit length */
-    hc_hit hit;
+    hc_ray      ray; /* direction of unit length */
+    hc_hit      hit;
+    hc_body_hit body; /* t is INFINITY unless it is nearer than the ground */
 } hc_glance;
+
+/* Find the object before the ground, if there is one. */
+void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain);
+
+/* Is an object between what the ray came to and the sun? */
+bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance);
 
 /* What a ray sees; footprint: width of its pixel at distance 1. `lit`: it comes to the sun. */
 void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,

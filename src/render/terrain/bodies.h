@@ -1,0 +1,26 @@
+/* Triangles in a landscape, and rays against them. */
+#ifndef HC_RENDER_BODIES_H
+#define HC_RENDER_BODIES_H
+
+#include <heightcast/terrain.h>
+
+typedef struct hc_bodies hc_bodies;
+
+/* What a ray comes to. */
+typedef struct hc_body_hit {
+    double t;         /* along the ray; INFINITY: nothing */
+    double normal[3]; /* unit, towards the ray    */
+    int    object;
+} hc_body_hit;
+
+/* The triangles of all objects, in the world. places: of their origins; meshes were checked.
+ * Destroy with hc_bodies_destroy, which accepts NULL. */
+hc_result hc_bodies_create(hc_bodies **bodies, const hc_object *objects, const double (*places)[3],
+                           int count, hc_log *log);
+void      hc_bodies_destroy(hc_bodies *bodies);
+
+/* The first triangle of origin + t * direction, t_min < t < t_max. */
+hc_body_hit hc_bodies_nearest(const hc_bodies *bodies, const double origin[3],
+                              const double direction[3], double t_min, double t_max);
+
+#endif
