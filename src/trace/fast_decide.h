@@ -31,6 +31,7 @@ typedef struct verdict {
 /* Cells on their own: the first root, when and through which side the ray leaves, and when it would
  * leave through the other one. */
 typedef struct test {
+    float   corners[4][HC_LANES]; /* h00, h10, h01, h11 */
     double  t[HC_LANES], leave[HC_LANES], other[HC_LANES];
     int32_t hit[HC_LANES], open[HC_LANES];
     int32_t across[HC_LANES]; /* leaves along v */
@@ -65,17 +66,16 @@ static inline void test_cells(const hc_fast *fast, const batch *b, const int32_t
 {
     slab          x;
     slab          y;
-    float         corner[4][HC_LANES];
     const corners h = find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
-    hc_v_store(corner[0], h.h00);
-    hc_v_store(corner[1], h.h10);
-    hc_v_store(corner[2], h.h01);
-    hc_v_store(corner[3], h.h11);
+    hc_v_store(out->corners[0], h.h00);
+    hc_v_store(out->corners[1], h.h10);
+    hc_v_store(out->corners[2], h.h01);
+    hc_v_store(out->corners[3], h.h11);
     cut_slab(&x, b, 0, cell_x);
     cut_slab(&y, b, 1, cell_y);
     for (int i = 0; i < HC_LANES; i++) {
-        const patch     p     = { (double)corner[0][i], (double)corner[1][i], (double)corner[2][i],
-                                  (double)corner[3][i] };
+        const patch     p     = { (double)out->corners[0][i], (double)out->corners[1][i],
+                                  (double)out->corners[2][i], (double)out->corners[3][i] };
         const double    dx    = b->direction[0][i];
         const double    dy    = b->direction[1][i];
         const double    dz    = b->direction[2][i];
