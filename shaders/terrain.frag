@@ -2,7 +2,9 @@
  * heightcast.glsl, whose marchers it uses, and draws what heightcast/terrain.h describes; functions
  * are named as in src/render/terrain and stand in its files' order: air, ground, see.
  *
- * It shows how to use those marchers for terrain: any eye (main), the sun's shadow (in_shadow). All is in texture space, where the CPU has put the eye; t of a
+ * It shows how to use those marchers for terrain: any eye (main), the sun's shadow (in_shadow), and
+ * triangles in the same depth buffer, lit by the same sun: bodies.vert puts them there, with this
+ * file behind #define BODIES. All is in texture space, where the CPU has put the eye; t of a
  * ray is the distance in the world, since the field's place is affine. */
 
 /* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
@@ -25,6 +27,16 @@ uniform int   u_ground;      /* HC_GROUND, below */
 uniform bool  u_blocky;
 
 uniform sampler2D u_image;
+
+/* Triangles that throw shadows, and the tree over them: texels from left to right, row by row. Of a
+ * node 2: low corner and `first`, high corner and `count`; it is a leaf of so many triangles from
+ * `first`, or has 0: then its children are the next node and node `first`. Behind the nodes, of a
+ * triangle 3: its corners. All from an anchor in the world. */
+uniform sampler2D u_bodies;
+uniform int       u_node_count; /* 0: there are none */
+uniform vec3      u_anchor;     /* from the anchor to the eye */
+uniform float     u_body_slip;  /* rays leave an object so far from it */
+uniform float     u_depth_unit; /* of the depth buffer: depth = unit / (unit + along), nearer is more */
 
 layout(location = 0) out vec4 o_light;  /* linear rgb; distance along the ray, HC_MISS: nothing */
 layout(location = 1) out vec4 o_normal; /* xyz in the world; height of the hit */
@@ -268,6 +280,79 @@ bool in_shadow(vec3 place)
     return hc_nearest(place + away * along, -along, away - u_shadow_slip).t < HC_MISS;
 }
 
+/* ---- bodies ---------------------------------------------------------------------------------- */
+
+vec4 body_texel(int index)
+{
+    int width = textureSize(u_bodies, 0).x;
+    return texelFetch(u_bodies, ivec2(index % width, index / width), 0);
+}
+
+bool comes_to(vec3 low, vec3 high, vec3 origin, vec3 direction)
+{
+    float from = 0.0;
+    float to   = HC_MISS;
+    for (int k = 0; k < 3; k++) {
+        if (direction[k] != 0.0) {
+            float a = (low[k] - origin[k]) / direction[k];
+            float b = (high[k] - origin[k]) / direction[k];
+            from    = max(from, min(a, b));
+            to      = min(to, max(a, b));
+        } else if (origin[k] < low[k] || origin[k] > high[k]) {
+            return false;
+        }
+    }
+    return from <= to;
+}
+
+bool meets(int index, vec3 origin, vec3 direction)
+{
+    vec3  corner = body_texel(index).xyz;
+    vec3  one    = body_texel(index + 1).xyz - corner;
+    vec3  two    = body_texel(index + 2).xyz - corner;
+    vec3  from   = origin - corner;
+    vec3  across_ = cross(direction, two);
+    vec3  over   = cross(from, one);
+    float volume = dot(one, across_);
+    if (volume == 0.0) {
+        return false;
+    }
+    vec3 found = vec3(dot(from, across_), dot(direction, over), dot(two, over)) / volume;
+    return found.x >= 0.0 && found.y >= 0.0 && found.x + found.y <= 1.0 && found.z > u_body_slip;
+}
+
+/* Is an object between a point, from the anchor, and the sun? */
+bool body_shades(vec3 point)
+{
+    int stack[32];
+    int waiting = 0;
+    if (u_node_count > 0) {
+        stack[waiting++] = 0;
+    }
+    while (waiting > 0) {
+        int  index = stack[--waiting];
+        vec4 low   = body_texel(2 * index);
+        vec4 high  = body_texel(2 * index + 1);
+        int  first = int(low.a);
+        int  count = int(high.a);
+        if (!comes_to(low.xyz, high.xyz, point, u_sun)) {
+            continue;
+        }
+        if (count == 0) {
+            stack[waiting++] = first;
+            stack[waiting++] = index + 1;
+        }
+        for (int i = first; i < first + count; i++) {
+            if (meets(2 * u_node_count + 3 * i, point, u_sun)) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+/* ---- see: light ------------------------------------------------------------------------------ */
+
 vec3 light(vec3 colour, vec3 normal, bool lit)
 {
     float facing = lit ? max(dot(normal, u_sun), 0.0) : 0.0;
@@ -275,12 +360,24 @@ vec3 light(vec3 colour, vec3 normal, bool lit)
     return colour * (SUNLIGHT * facing + SKYLIGHT * open_ + BOUNCED * (1.0 - open_));
 }
 
-vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, float top)
+/* from_eye: in the world */
+bool dark_at(vec3 place, vec3 normal, vec3 from_eye)
 {
-    bool dark   = dot(normal, u_sun) > 0.0 && u_shadows && in_shadow(hit.place);
+    return u_shadows && dot(normal, u_sun) > 0.0
+           && (in_shadow(place) || body_shades(u_anchor + from_eye));
+}
+
+vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, vec3 from_eye, float top)
+{
+    bool dark   = dark_at(hit.place, normal, from_eye);
     vec3 colour = is_cut(hit) ? CUT_GROUND
                               : ground_colour(hit.place, normal, u_footprint * hit.t);
     return haze(light(colour, normal, !dark), direction, top, hit.t);
+}
+
+float depth_of(float along)
+{
+    return u_depth_unit / (u_depth_unit + max(along, 0.0));
 }
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
@@ -294,6 +391,33 @@ hc_hit look(vec3 place, vec3 along)
     }
     return hit;
 }
+
+#ifdef BODIES
+
+/* Of a triangle that is drawn: from the eye, in the world. */
+in vec3 v_from_eye, v_normal, v_colour;
+
+void main(void)
+{
+    float along     = dot(v_from_eye, u_forward);
+    vec3  direction = u_orthographic ? u_forward : normalize(v_from_eye);
+    vec3  normal    = normalize(v_normal);
+    vec3  shift     = u_orthographic ? v_from_eye - along * u_forward : vec3(0.0);
+    float distance_ = u_orthographic ? along : length(v_from_eye);
+    vec3  place     = u_place + v_from_eye * u_scale;
+    normal          = dot(normal, direction) > 0.0 ? -normal : normal;
+    if (along < 0.0) {
+        discard;
+    }
+    bool dark    = dark_at(place, normal, v_from_eye);
+    vec3 colour  = haze(light(v_colour, normal, !dark), direction, u_haze_top - shift.z, distance_);
+    o_light      = vec4(colour, distance_);
+    o_normal     = vec4(normal, place.z);
+    o_counts     = vec4(0.0);
+    gl_FragDepth = depth_of(along);
+}
+
+#else
 
 void main(void)
 {
@@ -311,10 +435,13 @@ void main(void)
     vec3   normal    = seen ? normal_at(hit, along) : vec3(0.0);
     vec3   colour    = sky_colour(direction);
     if (seen) {
-        colour = see_ground(hit, normal, direction, u_haze_top - shift.z);
+        colour = see_ground(hit, normal, direction, shift + hit.t * direction, u_haze_top - shift.z);
     }
     o_light      = vec4(colour, hit.t);
     o_normal     = vec4(normal, hit.place.z);
     o_counts     = vec4(float(hit.steps), fetches, entered ? 1.0 + float(crossings) : 0.0,
                         float((hit.flags & HC_UNCONVERGED) != 0));
+    gl_FragDepth = seen ? depth_of(hit.t * dot(direction, u_forward)) : 0.0;
 }
+
+#endif

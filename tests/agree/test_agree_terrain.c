@@ -198,6 +198,36 @@ static void views(void **state)
     compare(&stairs, HC_VIEW_NORMAL);
 }
 
+/* In the same depth buffer, hiding and hidden, under shadows of both. */
+static void objects(void **state)
+{
+    (void)state;
+    hc_object object[HC_SOLID_HOUSE + 1];
+    for (int i = 0; i <= HC_SOLID_HOUSE; i++) {
+        hc_mesh *mesh = NULL;
+        assert_int_equal(hc_solid_create(&mesh, (hc_solid)i, NULL), HC_OK);
+        object[i] = (hc_object){ .mesh     = mesh,
+                                 .place    = { 2400.0 + 180.0 * i, -1500.0 - 260.0 * i, 0.0 },
+                                 .grounded = true,
+                                 .size     = 250.0,
+                                 .turn     = 25.0 * i,
+                                 .colour   = { 0.3F, 0.1F * (float)i, 0.2F } };
+    }
+    object[HC_SOLID_BALL].place[2] = 100.0;
+    for (int bare = 0; bare < 2; bare++) {
+        hc_terrain_scene scene = scene_of(HC_TRACE_MAXMIP);
+        scene.objects          = object;
+        scene.object_count     = HC_SOLID_HOUSE + 1;
+        scene.no_shadows       = bare == 1;
+        compare(&scene, bare == 1 ? HC_VIEW_NORMAL : HC_VIEW_SHADED);
+        compare(&scene, bare == 1 ? HC_VIEW_DEPTH : HC_VIEW_HEIGHT);
+        compare(&scene, bare == 1 ? HC_VIEW_CROSSINGS : HC_VIEW_MISSED);
+    }
+    for (int i = 0; i <= HC_SOLID_HOUSE; i++) {
+        hc_mesh_destroy((hc_mesh *)object[i].mesh);
+    }
+}
+
 /* ---- hits ------------------------------------------------------------------------------------ */
 
 /* docs/algorithms.md, section 22.7, has the bound, which is for angles of at least 1/64 between ray
@@ -299,6 +329,7 @@ int main(void)
         cmocka_unit_test(every_ground),
         cmocka_unit_test(other_choices),
         cmocka_unit_test(views),
+        cmocka_unit_test(objects),
         cmocka_unit_test(depths_agree),
         cmocka_unit_test(nothing_is_lost),
         cmocka_unit_test(terrains_take_turns),

@@ -228,8 +228,6 @@ class Terrain(Case):
         blue = [row[i : i + 3] for row in with_all[2] for i in range(0, len(row), 3)
                 if row[i + 2] > row[i] + 60 and row[i + 2] > row[i + 1] + 40]
         self.assertGreater(len(blue), 0)
-        figures = self.render("--backend", "gl", "--objects", "things/all.txt")
-        self.assertEqual(figures["backend"], "cpu")
 
     def test_bad_objects(self):
         for text, says in [("ball 1 2 3\n", "line 1"), ("\nball 1 2 3 0\n", "line 2"),

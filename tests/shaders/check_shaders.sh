@@ -47,10 +47,15 @@ fragment() {
 }
 
 for language in core es; do
-    { head_of $language && cat "$shaders/screen.vert"; } >"$folder/$language.vert"
-    check $language.vert vert
+    for stage in screen bodies; do
+        { head_of $language && cat "$shaders/$stage.vert"; } >"$folder/$language-$stage.vert"
+        check $language-$stage.vert vert
+    done
     for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
         RELAXED ROBUST QUICK; do
+        scene=terrain
+        fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
+        check $language-bodies-$method.frag frag
         for scene in terrain relief; do
             fragment $language-$scene-$method.frag $language "HC_METHOD HC_$method"
             check $language-$scene-$method.frag frag

@@ -22,6 +22,7 @@ typedef struct sink {
 /* Rows of the picture, one sample of each pixel. */
 typedef struct band {
     int    first_row, rows;
+    int    height; /* of the picture */
     double place[2];
 } band;
 
@@ -66,25 +67,61 @@ void hc_bands_free(hc_bands *bands)
     glDeleteTextures(HC_GL_PLANES, bands->planes);
     glDeleteFramebuffers(1, &bands->frame);
     glDeleteVertexArrays(1, &bands->vertices);
+    glDeleteRenderbuffers(1, &bands->depth);
     free(bands->back);
 }
 
-static void draw_band(unsigned program, int width, const band *b)
+hc_result hc_bands_take_bodies(hc_bands *bands, const hc_gl_bodies *bodies, hc_log *log)
 {
+    bands->bodies = *bodies;
+    if (bodies->count == 0) {
+        return HC_OK;
+    }
+    glGenRenderbuffers(1, &bands->depth);
+    glBindRenderbuffer(GL_RENDERBUFFER, bands->depth);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT32F, bands->width, bands->rows);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, bands->depth);
+    glEnable(GL_DEPTH_TEST);
+    glDepthFunc(GL_GEQUAL);
+    glClearDepthf(0.0F);
+    return hc_gl_check("depth buffer", log);
+}
+
+/* Where fragments' middles are, rays go through the sample's place. */
+static void draw_bodies(const hc_bands *bands, const band *b)
+{
+    const double rows  = b->rows;
+    const double scale = b->height / rows;
+    const double right = 2.0 * (0.5 - b->place[0]) / bands->width;
+    const double down  = scale + 2.0 * (0.5 - b->place[1] - b->first_row) / rows - 1.0;
+    glUseProgram(bands->bodies.program);
+    glUniform4f(glGetUniformLocation(bands->bodies.program, "u_window"), 1.0F, (float)scale,
+                (float)right, (float)down);
+    glBindVertexArray(bands->bodies.array);
+    glDrawArrays(GL_TRIANGLES, 0, bands->bodies.count);
+    glBindVertexArray(bands->vertices);
+}
+
+static void draw_band(const hc_bands *bands, unsigned program, const band *b)
+{
+    glViewport(0, 0, bands->width, b->rows);
+    if (bands->bodies.count > 0) {
+        glClear(GL_DEPTH_BUFFER_BIT);
+        draw_bodies(bands, b);
+    }
     glUseProgram(program);
     glUniform1f(glGetUniformLocation(program, "u_first_row"), (float)b->first_row);
     glUniform2f(glGetUniformLocation(program, "u_sample"), (float)b->place[0], (float)b->place[1]);
-    glViewport(0, 0, width, b->rows);
     glDrawArrays(GL_TRIANGLES, 0, 3);
     glFinish();
 }
 
 void hc_bands_warm(const hc_bands *bands)
 {
-    static const band one = { 0, 1, { 0.5, 0.5 } };
-    draw_band(bands->program, 1, &one);
+    static const band one = { 0, 1, 1, { 0.5, 0.5 } };
+    draw_band(bands, bands->program, &one);
     if (bands->exact != 0) {
-        draw_band(bands->exact, 1, &one);
+        draw_band(bands, bands->exact, &one);
     }
 }
 
@@ -139,11 +176,11 @@ static double take_band(const sink *s, const hc_bands *bands, const band *b)
 {
     const size_t texels = (size_t)bands->width * (size_t)b->rows * CHANNELS;
     if (bands->exact != 0) {
-        draw_band(bands->exact, bands->width, b);
+        draw_band(bands, bands->exact, b);
         read_plane(bands->back + HC_GL_PLANES * texels, 0, bands->width, b->rows);
     }
     const double start = hc_clock_now();
-    draw_band(bands->program, bands->width, b);
+    draw_band(bands, bands->program, b);
     const double seconds = hc_clock_now() - start;
     for (int k = 0; k < HC_GL_PLANES; k++) {
         read_plane(bands->back + (size_t)k * texels, k, bands->width, b->rows);
@@ -158,7 +195,10 @@ hc_result hc_bands_draw(hc_pixel *pixels, double *seconds, const hc_bands *bands
     const sink s = { pixels, eye, add, user };
     *seconds     = 0.0;
     for (int row = 0; row < eye->height; row += bands->rows) {
-        band b = { row, bands->rows < eye->height - row ? bands->rows : eye->height - row, { 0 } };
+        const int rest = eye->height - row;
+        band      b    = { .first_row = row,
+                           .rows      = bands->rows < rest ? bands->rows : rest,
+                           .height    = eye->height };
         if (progress->report != NULL
             && !progress->report(progress->user, (double)row / eye->height)) {
             return HC_ERROR_CANCELLED;

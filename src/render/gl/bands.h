@@ -12,17 +12,28 @@
 
 enum { HC_GL_PLANES = 3 };
 
+/* Triangles that are drawn first, in the depth buffer of what comes behind; bodies.vert's u_window is
+ * set for each band. The shaders' depths are larger the nearer, and 0 where there is nothing. */
+typedef struct hc_gl_bodies {
+    unsigned program, array; /* array: of vertices */
+    int      count;          /* of vertices; 0: there are none */
+} hc_gl_bodies;
+
 typedef struct hc_bands {
-    unsigned program, exact; /* exact: its distances are the exact ones; 0: none is asked for */
-    unsigned vertices;       /* core profiles want an array, though nothing is in it */
-    unsigned frame, planes[HC_GL_PLANES];
-    int      width, rows; /* of a band */
-    float   *back;        /* what was drawn: the planes, and one of exact distances */
+    unsigned     program, exact; /* exact: its distances are the exact ones; 0: none is asked for */
+    unsigned     vertices;       /* core profiles want an array, though nothing is in it */
+    unsigned     frame, planes[HC_GL_PLANES];
+    hc_gl_bodies bodies;
+    unsigned     depth;
+    int          width, rows; /* of a band */
+    float       *back;        /* what was drawn: the planes, and one of exact distances */
 } hc_bands;
 
 /* Targets for pictures of this size, in a context that is current; `unit`: one of its texture units
  * that is free. hc_bands_free must follow, whatever the result, in the same context. */
 hc_result hc_bands_make(hc_bands *bands, int width, int height, int unit, hc_log *log);
+/* Draw them first. */
+hc_result hc_bands_take_bodies(hc_bands *bands, const hc_gl_bodies *bodies, hc_log *log);
 void      hc_bands_free(hc_bands *bands);
 
 /* Drivers finish compiling when they draw for the first time: that is no time of drawing. */

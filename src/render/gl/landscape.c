@@ -10,13 +10,18 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, TEXTURES };
+enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, BODIES, TEXTURES };
+
+enum { BODY_COLUMNS = 4096 };
 
 struct hc_terrain_gl {
     hc_gl_context context;
     unsigned      textures[TEXTURES];
     unsigned      program, exact; /* exact: 0 unless the view compares */
+    hc_gl_bodies  bodies;
+    unsigned      corners; /* of them: a buffer */
 };
 
 /* ---- making -------------------------------------------------------------------------------- */
@@ -31,7 +36,6 @@ static hc_result check_method(const hc_terrain *terrain, hc_log *log)
     }
     const char *more = trace->open_sides                    ? "open sides"
                        : trace->surface == HC_SURFACE_STEPS ? "steps"
-                       : terrain->bodies != NULL            ? "objects"
                                                             : NULL;
     return more == NULL ? HC_OK
                         : hc_fail(log, HC_ERROR_UNSUPPORTED,
@@ -70,6 +74,51 @@ static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc
     return result;
 }
 
+/* ---- bodies -------------------------------------------------------------------------------- */
+
+/* The tree and its triangles, for shadows. */
+static hc_result load_tree(unsigned *texture, const hc_terrain *terrain, hc_log *log)
+{
+    const int count  = hc_bodies_texel_count(terrain->bodies);
+    const int rows   = (count + BODY_COLUMNS - 1) / BODY_COLUMNS;
+    float    *texels = calloc((size_t)rows * BODY_COLUMNS * 4, sizeof *texels);
+    if (texels == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for the objects' triangles");
+    }
+    hc_bodies_texels(texels, terrain->bodies, terrain->low);
+    const hc_result result =
+        hc_upload_image(texture, BODIES, texels, BODY_COLUMNS, rows, 4, "objects", log);
+    free(texels);
+    return result;
+}
+
+static hc_result load_corners(hc_terrain_gl *gl, const hc_terrain *terrain, hc_log *log)
+{
+    const int    count   = hc_bodies_corner_count(terrain->bodies);
+    const size_t bytes   = (size_t)count * HC_CORNER_FLOATS * sizeof(float);
+    float       *corners = malloc(bytes);
+    if (corners == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for the objects' triangles");
+    }
+    hc_bodies_corners(corners, terrain->bodies, terrain->low, (const float(*)[3])terrain->colours);
+    glGenVertexArrays(1, &gl->bodies.array);
+    glBindVertexArray(gl->bodies.array);
+    glGenBuffers(1, &gl->corners);
+    glBindBuffer(GL_ARRAY_BUFFER, gl->corners);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, corners, GL_STATIC_DRAW);
+    for (unsigned i = 0; i < 3; i++) {
+        const size_t offset = 3 * i * sizeof *corners;
+        glEnableVertexAttribArray(i);
+        glVertexAttribPointer(i, 3, GL_FLOAT, GL_FALSE, HC_CORNER_FLOATS * sizeof *corners,
+                              (const void *)offset);
+    }
+    free(corners);
+    gl->bodies.count = count;
+    return hc_gl_check("objects", log);
+}
+
+/* ---- programs ------------------------------------------------------------------------------ */
+
 /* Texture space per world unit. */
 static void scale_of(double scale[3], const hc_terrain *terrain)
 {
@@ -90,6 +139,11 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_int(program, "hc_ratios", RATIOS);
     hc_upload_int(program, "hc_bounds", exact ? EXACT_BOUNDS : BOUNDS);
     hc_upload_int(program, "u_image", IMAGE);
+    hc_upload_int(program, "u_bodies", BODIES);
+    hc_upload_int(program, "u_node_count",
+                  terrain->bodies != NULL ? hc_bodies_node_count(terrain->bodies) : 0);
+    hc_upload_float(program, "u_body_slip", hc_terrain_body_slip(terrain));
+    hc_upload_float(program, "u_depth_unit", fmin(scene->spacing[0], scene->spacing[1]));
     hc_upload_vector(program, "u_scale", scale);
     hc_upload_vector(program, "u_sun", terrain->sun);
     hc_upload_int(program, "u_shadows", !scene->no_shadows && !exact);
@@ -100,17 +154,29 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_int(program, "u_blocky", scene->blocky);
 }
 
-static hc_result build(unsigned *program, const hc_terrain *terrain, bool exact, hc_log *log)
+/* before: the vertex shader. */
+static hc_result build(unsigned *program, const hc_terrain *terrain, const char *before, bool exact,
+                       hc_log *log)
 {
     const hc_trace_options *trace = &terrain->scene.trace;
-    char                    head[128];
+    char                    head[160];
     hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
-    const hc_result result = hc_upload_program(program, head, "terrain.frag", log);
+    if (strcmp(before, "bodies.vert") == 0) {
+        memcpy(head + strlen(head), "#define BODIES\n", sizeof "#define BODIES\n");
+    }
+    const hc_result result = hc_upload_program(program, head, before, "terrain.frag", log);
     if (result == HC_OK) {
         glUseProgram(*program);
         set_scene(*program, terrain, exact);
     }
     return result;
+}
+
+static hc_result add_bodies(hc_terrain_gl *gl, const hc_terrain *terrain, hc_log *log)
+{
+    hc_result result = build(&gl->bodies.program, terrain, "bodies.vert", false, log);
+    result           = result != HC_OK ? result : load_tree(&gl->textures[BODIES], terrain, log);
+    return result != HC_OK ? result : load_corners(gl, terrain, log);
 }
 
 hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
@@ -125,9 +191,12 @@ hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_l
     }
     result = hc_gl_open(&(*gl)->context, log);
     result = result != HC_OK ? result : load((*gl)->textures, terrain, log);
-    result = result != HC_OK ? result : build(&(*gl)->program, terrain, false, log);
+    result = result != HC_OK ? result : build(&(*gl)->program, terrain, "screen.vert", false, log);
     if (result == HC_OK && terrain->exact != NULL) {
-        result = build(&(*gl)->exact, terrain, true, log);
+        result = build(&(*gl)->exact, terrain, "screen.vert", true, log);
+    }
+    if (result == HC_OK && terrain->bodies != NULL) {
+        result = add_bodies(*gl, terrain, log);
     }
     return result; /* hc_terrain_destroy frees what there is */
 }
@@ -140,6 +209,9 @@ void hc_terrain_gl_free(hc_terrain_gl *gl)
     if (gl->context.context != NULL && hc_gl_use(&gl->context, NULL) == HC_OK) {
         glDeleteProgram(gl->program);
         glDeleteProgram(gl->exact);
+        glDeleteProgram(gl->bodies.program);
+        glDeleteVertexArrays(1, &gl->bodies.array);
+        glDeleteBuffers(1, &gl->corners);
         glDeleteTextures(TEXTURES, gl->textures);
     }
     hc_gl_close(&gl->context);
@@ -154,15 +226,17 @@ static void set_eye(unsigned program, const hc_terrain *terrain, const hc_eye *e
     const hc_placement *p     = &terrain->placement;
     const hc_field     *field = &terrain->scene.field;
     const double        first = field->registration == HC_GRID ? 0.0 : 0.5;
-    double              scale[3], place[3];
+    double              scale[3], place[3], anchor[3];
     scale_of(scale, terrain);
     for (int k = 0; k < 3; k++) {
-        place[k] = (eye->place[k] - p->offset[k]) * scale[k];
+        place[k]  = (eye->place[k] - p->offset[k]) * scale[k];
+        anchor[k] = eye->place[k] - terrain->low[k];
     }
     place[0] += first * hc_field_step_u(field);
     place[1] += first * hc_field_step_v(field);
     hc_upload_eye(program, eye);
     hc_upload_vector(program, "u_place", place);
+    hc_upload_vector(program, "u_anchor", anchor);
     hc_upload_float(program, "u_footprint", hc_terrain_footprint(eye));
     hc_upload_float(program, "u_haze_top", hc_haze_top(terrain) - eye->place[2]);
 }
@@ -192,6 +266,10 @@ static hc_result draw(hc_pixel *pixels, double *seconds, const hc_terrain *terra
         glUseProgram(bands->exact);
         set_eye(bands->exact, terrain, eye);
     }
+    if (bands->bodies.count > 0) {
+        glUseProgram(bands->bodies.program);
+        set_eye(bands->bodies.program, terrain, eye);
+    }
     hc_bands_warm(bands);
     return hc_bands_draw(pixels, seconds, bands, eye, &terrain->options.progress, add, &j, log);
 }
@@ -205,6 +283,9 @@ hc_result hc_terrain_gl_draw(hc_pixel *pixels, double *seconds, const hc_terrain
         return result;
     }
     result = hc_bands_make(&bands, eye->width, eye->height, TEXTURES, log);
+    if (result == HC_OK) {
+        result = hc_bands_take_bodies(&bands, &terrain->gl->bodies, log);
+    }
     if (result == HC_OK) {
         result = draw(pixels, seconds, terrain, eye, &bands, log);
     }

@@ -95,5 +95,5 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
 
 hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log)
 {
-    return hc_upload_program(program, head, "relief.frag", log);
+    return hc_upload_program(program, head, "screen.vert", "relief.frag", log);
 }

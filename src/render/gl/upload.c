@@ -127,10 +127,10 @@ void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones)
         hc_gl_method(method), cones == HC_CONES_L1 ? 1 : 4);
 }
 
-hc_result hc_upload_program(unsigned *program, const char *head, const char *name, hc_log *log)
+hc_result hc_upload_program(unsigned *program, const char *head, const char *before,
+                            const char *name, hc_log *log)
 {
-    const hc_shader_text vertex[]   = { { "screen.vert", hc_shader_text_named("screen.vert") },
-                                        { NULL, NULL } };
+    const hc_shader_text vertex[]   = { { before, hc_shader_text_named(before) }, { NULL, NULL } };
     const hc_shader_text fragment[] = { { "heightcast.glsl",
                                           hc_shader_text_named("heightcast.glsl") },
                                         { name, hc_shader_text_named(name) },

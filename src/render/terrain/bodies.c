@@ -203,8 +203,8 @@ static double meets(const triangle *t, const double origin[3], const double dire
                : INFINITY;
 }
 
-static void set_normal(double normal[3], const triangle *t, const double share[2],
-                       const double direction[3])
+/* Of the corners, or of the triangle. */
+static void set_normal(double normal[3], const triangle *t, const double share[2])
 {
     double one[3], two[3];
     for (int k = 0; k < 3; k++) {
@@ -216,9 +216,6 @@ static void set_normal(double normal[3], const triangle *t, const double share[2
         hc_add_scaled(two, t->corner[2], -1.0, t->corner[0]);
         hc_cross(normal, one, two);
         (void)hc_unit(normal);
-    }
-    for (int k = 0, back = hc_dot(normal, direction) > 0.0; k < 3 && back; k++) {
-        normal[k] = -normal[k];
     }
 }
 
@@ -254,6 +251,70 @@ hc_body_hit hc_bodies_nearest(const hc_bodies *bodies, const double origin[3],
         return (hc_body_hit){ .t = INFINITY };
     }
     hit.object = best->object;
-    set_normal(hit.normal, best, where, direction);
+    set_normal(hit.normal, best, where);
+    if (hc_dot(hit.normal, direction) > 0.0) {
+        hc_add_scaled(hit.normal, hit.normal, -2.0, hit.normal);
+    }
     return hit;
+}
+
+/* ---- for shaders --------------------------------------------------------------------------- */
+
+int hc_bodies_node_count(const hc_bodies *bodies)
+{
+    return bodies->node_count;
+}
+
+int hc_bodies_texel_count(const hc_bodies *bodies)
+{
+    return 2 * bodies->node_count + 3 * bodies->triangle_count;
+}
+
+/* Rounded to float, a triangle may stick out of its boxes. */
+static void put_node(float texels[8], const node *n, const double anchor[3])
+{
+    for (int k = 0; k < 3; k++) {
+        const double low   = n->low[k] - anchor[k];
+        const double high  = n->high[k] - anchor[k];
+        const double slack = 0x1p-20 * fmax(fabs(low), fabs(high));
+        texels[k]          = (float)(low - slack);
+        texels[4 + k]      = (float)(high + slack);
+    }
+    texels[3] = (float)n->first;
+    texels[7] = (float)n->count;
+}
+
+void hc_bodies_texels(float *texels, const hc_bodies *bodies, const double anchor[3])
+{
+    for (int i = 0; i < bodies->node_count; i++, texels += 8) {
+        put_node(texels, &bodies->nodes[i], anchor);
+    }
+    for (int i = 0; i < 3 * bodies->triangle_count; i++, texels += 4) {
+        const double *corner = bodies->triangles[i / 3].corner[i % 3];
+        for (int k = 0; k < 3; k++) {
+            texels[k] = (float)(corner[k] - anchor[k]);
+        }
+        texels[3] = 0.0F;
+    }
+}
+
+int hc_bodies_corner_count(const hc_bodies *bodies)
+{
+    return 3 * bodies->triangle_count;
+}
+
+void hc_bodies_corners(float *corners, const hc_bodies *bodies, const double anchor[3],
+                       const float (*colours)[3])
+{
+    for (int i = 0; i < 3 * bodies->triangle_count; i++, corners += HC_CORNER_FLOATS) {
+        static const double shares[3][2] = { { 0.0, 0.0 }, { 1.0, 0.0 }, { 0.0, 1.0 } };
+        const triangle     *t            = &bodies->triangles[i / 3];
+        double              normal[3];
+        set_normal(normal, t, shares[i % 3]);
+        for (int k = 0; k < 3; k++) {
+            corners[k]     = (float)(t->corner[i % 3][k] - anchor[k]);
+            corners[3 + k] = (float)normal[k];
+            corners[6 + k] = colours[t->object][k];
+        }
+    }
 }

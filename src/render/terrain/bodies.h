@@ -19,6 +19,19 @@ hc_result hc_bodies_create(hc_bodies **bodies, const hc_object *objects, const d
                            int count, hc_log *log);
 void      hc_bodies_destroy(hc_bodies *bodies);
 
+/* The tree and its triangles as shaders/terrain.frag reads them, from `anchor`; the texels' number,
+ * and that of the nodes. */
+int  hc_bodies_node_count(const hc_bodies *bodies);
+int  hc_bodies_texel_count(const hc_bodies *bodies);
+void hc_bodies_texels(float *texels, const hc_bodies *bodies, const double anchor[3]);
+
+/* Three corners of each triangle, as shaders/bodies.vert takes them: place from `anchor`, normal,
+ * colour. */
+enum { HC_CORNER_FLOATS = 9 };
+int  hc_bodies_corner_count(const hc_bodies *bodies);
+void hc_bodies_corners(float *corners, const hc_bodies *bodies, const double anchor[3],
+                       const float (*colours)[3]);
+
 /* The first triangle of origin + t * direction, t_min < t < t_max. */
 hc_body_hit hc_bodies_nearest(const hc_bodies *bodies, const double origin[3],
                               const double direction[3], double t_min, double t_max);

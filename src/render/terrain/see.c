@@ -102,10 +102,9 @@ hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance)
 
 /* ---- objects ------------------------------------------------------------------------------- */
 
-/* Rays leave an object so far from it: what rounding of the largest coordinate may do. */
-static double body_slip(const hc_terrain *terrain)
+double hc_terrain_body_slip(const hc_terrain *terrain)
 {
-    return 0x1p-24 * terrain->side;
+    return 0x1p-20 * terrain->side;
 }
 
 void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain)
@@ -122,7 +121,8 @@ bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance)
     point_of(point, glance);
     normal_at(normal, terrain, glance);
     return hc_dot(normal, terrain->sun) > 0.0
-           && hc_bodies_nearest(terrain->bodies, point, terrain->sun, body_slip(terrain), INFINITY)
+           && hc_bodies_nearest(terrain->bodies, point, terrain->sun, hc_terrain_body_slip(terrain),
+                                INFINITY)
                       .t
                   < INFINITY;
 }

@@ -37,6 +37,9 @@ typedef struct hc_glance {
 /* Find the object before the ground, if there is one. */
 void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain);
 
+/* Rays leave an object so far from it: what rounding of coordinates may do, also in a shader. */
+double hc_terrain_body_slip(const hc_terrain *terrain);
+
 /* Is an object between what the ray came to and the sun? */
 bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance);
 
