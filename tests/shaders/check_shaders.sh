@@ -75,18 +75,24 @@ for language in core es; do
     done
 done
 
-for search in PYRAMID BRUTE EXACT QUICK FALLING ROUNDING GEMS BOUNDS GRADIENT; do
-    for l2 in 0 1; do
-        for sided in 0 1; do
-            {
-                head_of core
-                printf '#define HC_BAKE HC_%s\n#define HC_L2 %s\n' $search $l2
-                printf '#define HC_SIDED %s\n' $sided
-                cat "$shaders/bake.comp"
-            } >"$folder/$search-$l2-$sided.comp"
-            check $search-$l2-$sided.comp comp
-        done
+# search NAME L2 SIDED
+search() {
+    {
+        head_of core
+        printf '#define HC_BAKE HC_%s\n#define HC_L2 %s\n#define HC_SIDED %s\n' "$@"
+        cat "$shaders/bake.comp"
+    } >"$folder/$1-$2-$3.comp"
+    check "$1-$2-$3.comp" comp
+}
+
+for name in BRUTE EXACT QUICK; do
+    for sides in "0 0" "0 1" "1 0" "1 1"; do
+        # shellcheck disable=SC2086 # two words
+        search $name $sides
     done
+done
+for name in PYRAMID BOUNDS GRADIENT FALLING ROUNDING GEMS; do
+    search $name 1 0
 done
 
 fragment wrong.frag core "HC_METHOD HC_SAFE" HC_DUMMER
