@@ -115,13 +115,14 @@ class Bench(Case):
     def test_rays(self):
         self.run_program("gen", "fbm", "hills.png", "--size", "40x30")
         table = self.text("bench", "trace", "--sizes", "24", "--field", "fbm,hills.png",
-                          "--methods", "fast", "--repeat", "1", "--csv", "rays.csv",
+                          "--methods", "fast", "--rays", 30000, "--repeat", "1", "--csv", "rays.csv",
                           "--json", "rays.json")
         rows = json.loads(self.path("rays.json").read_text())["rows"]
         self.assertEqual({row["field"] for row in rows}, {"fbm", "hills.png"})
         self.assertEqual({row["rays"] for row in rows},
                          {"fly", "walk", "sight", "shadow", "random"})
         self.assertEqual({row["threads"] for row in rows}, {1, 2})
+        self.assertEqual({row["count"] for row in rows}, {30000})
         for row in rows:
             self.assertGreater(row["rays_per_second"], 0)
             self.assertGreater(row["hits"], 0)
@@ -130,7 +131,8 @@ class Bench(Case):
         self.assertNotIn("nan", table)
 
     def steps(self, *options):
-        return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", *options, "--json"))
+        return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", "--rays", 4000, *options,
+                                    "--json"))
 
     def test_render(self):
         report = json.loads(self.text("bench", "render", "--sizes", 32, "--size", "48x32",
@@ -191,6 +193,8 @@ class Bench(Case):
     def test_usage(self):
         self.refused("bench", "steps", "--methods", "fast,linear", code=USAGE, says="maxmip")
         self.refused("bench", "terrain", code=USAGE, says="'terrain'")
+        self.refused("bench", "bake", "--rays", 9, code=USAGE, says="bench steps")
+        self.refused("bench", "steps", "--rays", 0, code=USAGE, says="100000000")
         self.refused("bench", "trace", "--backend", "gl", code=USAGE, says="--backend")
         self.refused("bench", "--size", "9", code=USAGE, says="--size is for bench render")
         self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")

@@ -97,6 +97,10 @@ static int check_arguments(hc_cli *cli)
     if (!asks_for(cli, "render") && hc_cli_given(settings, "size")) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--size is for bench render; leave it out");
     }
+    if (!asks_for(cli, "trace") && !asks_for(cli, "steps") && hc_cli_given(settings, "rays")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "--rays is for bench trace and bench steps; leave it out");
+    }
     if (!asks_for(cli, "render") && !asks_for(cli, "bake") && hc_cli_given(settings, "backend")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--backend is for bench bake and bench render; leave it out");

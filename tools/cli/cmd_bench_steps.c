@@ -125,6 +125,7 @@ static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
                                               .methods      = in->methods.items,
                                               .method_count = in->methods.count,
                                               .seed         = settings->seed,
+                                              .rays         = (size_t)settings->rays.count,
                                               .threads      = settings->threads,
                                               .isa          = settings->map.cone.isa,
                                               .stop         = stop_asked,

@@ -151,6 +151,7 @@ static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
                                               .casters      = in->methods.items,
                                               .caster_count = in->methods.count,
                                               .seed         = settings->seed,
+                                              .rays         = (size_t)settings->rays.count,
                                               .repeat       = settings->repeat,
                                               .threads      = settings->threads,
                                               .isa          = settings->map.cone.isa,
