@@ -234,6 +234,9 @@ class Contradictions(Case):
             self.refused("bake", "wide.pgm", "out.exr", "--backend", "gl", code=MEMORY,
                          says=["field of 65536 x 1", "use cpu"])
             self.assertNotIn("out.exr", self.files())
+            figures = self.json("bake", "wide.pgm", "out.exr", "--backend", "auto")
+            self.assertEqual(figures["backend"], "cpu")
+            self.assertIn("; the CPU bakes", figures["warnings"][0])
 
 
 class Outputs(Case):

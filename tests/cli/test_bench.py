@@ -196,6 +196,7 @@ class Bench(Case):
         self.refused("bench", "bake", "--rays", 9, code=USAGE, says="bench steps")
         self.refused("bench", "steps", "--rays", 0, code=USAGE, says="100000000")
         self.refused("bench", "trace", "--backend", "gl", code=USAGE, says="--backend")
+        self.refused("bench", "bake", "--backend", "auto", code=USAGE, says="--backend auto")
         self.refused("bench", "--size", "9", code=USAGE, says="--size is for bench render")
         self.refused("bench", "trace", "--methods", "embre", code=USAGE, says="fast")
         self.refused("bench", "--sizes", "16,x", code=USAGE, says=["--sizes", "x"])

@@ -209,6 +209,9 @@ class Render(Case):
                      "--size", "32x24", code=MEMORY,
                      says=["field of 65536 x 1: textures of this driver have at most", "use cpu"])
         self.assertFalse(self.path("b.png").exists())
+        figures = self.render("--backend", "auto", field="wide.pgm")
+        self.assertEqual(figures["backend"], "cpu")
+        self.assertIn("; the CPU draws", figures["warnings"][0])
 
     def test_ctrl_c(self):
         """A picture that takes far longer than anyone waits here."""

@@ -72,6 +72,20 @@ int hc_cli_fail_result(hc_cli *cli, hc_result result)
     return hc_cli_fail(cli, exit_code(result), "%s", text);
 }
 
+bool hc_cli_falls_back(hc_cli *cli, hc_result result, const char *does)
+{
+    hc_cli_settings *settings = &cli->settings;
+    const bool       graphics =
+        result == HC_ERROR_MEMORY || result == HC_ERROR_LIMIT || result == HC_ERROR_IO;
+    if (settings->backend != HC_CLI_GL
+        || (result != HC_ERROR_UNSUPPORTED && !(settings->either && graphics))) {
+        return false;
+    }
+    hc_cli_warn(cli, "%s; the CPU %s", cli->log.text, does);
+    settings->backend = HC_CLI_CPU;
+    return true;
+}
+
 int hc_cli_fail_memory(hc_cli *cli)
 {
     return hc_cli_fail(cli, HC_CLI_MEMORY, "out of memory");

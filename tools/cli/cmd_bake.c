@@ -164,7 +164,7 @@ static int refuse_levels(hc_cli *cli, const hc_container *container)
 static int refuse_idle_backend(hc_cli *cli)
 {
     const hc_map_options *map = &cli->settings.map;
-    if (cli->settings.backend == HC_CLI_GL
+    if (cli->settings.backend == HC_CLI_GL && !cli->settings.either
         && (map->compat2006 || (map->kind == HC_MAP_GRADIENT && map->bits != 32))) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--backend gl does nothing for %s; leave it out",
                            map->compat2006 ? "--compat" : "--map gradient in codes");
@@ -270,19 +270,13 @@ static hc_result bake_by_gl(hc_cli *cli, const hc_field *field, hc_map *map)
 /* Where there is no OpenGL, or not for this method, the CPU bakes. */
 static hc_result bake(hc_cli *cli, const hc_field *field, hc_map *map)
 {
-    hc_cli_settings *settings = &cli->settings;
-    hc_result        result   = HC_ERROR_UNSUPPORTED;
-    if (settings->backend == HC_CLI_GL) {
-        result = bake_by_gl(cli, field, map);
-    }
-    if (result == HC_ERROR_UNSUPPORTED) {
-        if (settings->backend == HC_CLI_GL) {
-            hc_cli_warn(cli, "%s; the CPU bakes", cli->log.text);
-            settings->backend = HC_CLI_CPU;
+    if (cli->settings.backend == HC_CLI_GL) {
+        const hc_result result = bake_by_gl(cli, field, map);
+        if (!hc_cli_falls_back(cli, result, "bakes")) {
+            return result;
         }
-        result = hc_bake_map(map, field, &settings->map, &cli->log);
     }
-    return result;
+    return hc_bake_map(map, field, &cli->settings.map, &cli->log);
 }
 
 static int bake_and_save(hc_cli *cli, const hc_field *field, hc_map *map)

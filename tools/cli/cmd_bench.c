@@ -105,6 +105,10 @@ static int check_arguments(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--backend is for bench bake and bench render; leave it out");
     }
+    if (settings->either) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "--backend auto could be either; bench measures cpu or gl");
+    }
     const bool json_file = settings->report != NULL && strcmp(settings->report, "-") != 0;
     int        code      = json_file ? hc_cli_check_output(cli, settings->report) : HC_CLI_DONE;
     if (code == HC_CLI_DONE && settings->csv != NULL) {

@@ -197,11 +197,9 @@ static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *pict
                                    .threads  = settings->threads,
                                    .progress = hc_cli_progress(cli) };
     hc_result         result   = hc_render(picture, &relief->scene, &options, &cli->log);
-    if (result == HC_ERROR_UNSUPPORTED && settings->backend == HC_CLI_GL) {
-        hc_cli_warn(cli, "%s; the CPU draws", cli->log.text);
-        settings->backend = HC_CLI_CPU;
-        options.backend   = HC_BACKEND_CPU;
-        result            = hc_render(picture, &relief->scene, &options, &cli->log);
+    if (hc_cli_falls_back(cli, result, "draws")) {
+        options.backend = HC_BACKEND_CPU;
+        result          = hc_render(picture, &relief->scene, &options, &cli->log);
     }
     return result;
 }

@@ -241,11 +241,9 @@ static hc_result make(hc_terrain **terrain, hc_cli *cli, const hc_terrain_scene 
                                    .progress = hc_cli_progress(cli) };
     hc_cli_phase(cli, "build");
     hc_result result = hc_terrain_create(terrain, scene, &options, &cli->log);
-    if (result == HC_ERROR_UNSUPPORTED && settings->backend == HC_CLI_GL) {
-        hc_cli_warn(cli, "%s; the CPU draws", cli->log.text);
-        settings->backend = HC_CLI_CPU;
-        options.backend   = HC_BACKEND_CPU;
-        result            = hc_terrain_create(terrain, scene, &options, &cli->log);
+    if (hc_cli_falls_back(cli, result, "draws")) {
+        options.backend = HC_BACKEND_CPU;
+        result          = hc_terrain_create(terrain, scene, &options, &cli->log);
     }
     hc_cli_phase(cli, NULL);
     return result;

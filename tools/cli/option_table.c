@@ -159,7 +159,8 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(backend),
       .words    = hc_cli_backend_words,
       .help = "Where the work is done: gl bakes and draws by OpenGL 4.3, on a GPU where there is "
-              "one. Where there is no OpenGL the CPU does it, but for bench." },
+              "one; where there is no OpenGL the CPU does it, but for bench. auto: the CPU also "
+              "does what is too large for graphics." },
     { .name     = "isa",
       .commands = HC_CLI_BAKE | HC_CLI_BENCH | HC_CLI_TRACE,
       .section  = HC_CLI_SECTION_MAP,

@@ -155,6 +155,10 @@ static int run(const hc_cli_command *command, int argc, char **argv)
     if (parsed && cli.settings.version) {
         return show_version();
     }
+    cli.settings.either = cli.settings.backend == HC_CLI_AUTO;
+    if (cli.settings.either) {
+        cli.settings.backend = HC_CLI_GL;
+    }
     hc_cli_begin(&cli);
     const int code =
         parsed ? run_checked(&cli, command) : hc_cli_fail(&cli, HC_CLI_USAGE, "%s", error);

@@ -9,7 +9,8 @@
 #define HC_CLI_PATHS_MAX 256
 #define HC_CLI_OPTIONS_MAX 128 /* rows of the option table */
 
-typedef enum hc_cli_backend { HC_CLI_CPU = 0, HC_CLI_GL } hc_cli_backend;
+/* auto stands here as gl once the command line is read, with `either` set. */
+typedef enum hc_cli_backend { HC_CLI_CPU = 0, HC_CLI_GL, HC_CLI_AUTO } hc_cli_backend;
 
 typedef struct hc_cli_size {
     int width, height; /* 0: not given */
@@ -78,6 +79,7 @@ typedef struct hc_cli_settings {
     hc_save_options save;
     int             compat; /* 2006, or 0 */
     hc_cli_backend  backend;
+    bool            either; /* whatever goes wrong with gl, the CPU may do it */
     int             threads;
     hc_cli_size     size;
     uint64_t        seed;

@@ -85,7 +85,7 @@ const char *hc_cli_marcher_words(int index)
 
 const char *hc_cli_backend_words(int index)
 {
-    static const char *const words[] = { "cpu", "gl", NULL };
+    static const char *const words[] = { "cpu", "gl", "auto", NULL };
     return words[index];
 }
 
