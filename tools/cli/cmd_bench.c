@@ -1,6 +1,6 @@
 /* heightcast bench: the measurements of bench/ as a table, JSON and CSV. */
 #include "bench_report.h"
-#include "bench_trace.h"
+#include "bench_run.h"
 #include "commands.h"
 #include "interrupt.h"
 #include "lists.h"

@@ -1,32 +1,24 @@
 /* heightcast bench render: frames of relief by every kind of map and method, as a table, JSON and
  * CSV. */
-#include "bench_report.h"
-#include "bench_trace.h"
-#include "interrupt.h"
+#include "bench_run.h"
 #include "words.h"
 
 #include "bench/render_bench.h"
 
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINE_MAX_BYTES = 256 };
 
+static const hc_bench_render_row *row_at(const hc_cli_run *r, int i)
+{
+    return (const hc_bench_render_row *)r->rows + i;
+}
+
 /* Below that a method counts as true: safe is held against the fewest steps that are. */
 static const double WRONG_MOST = 0.001;
 
-typedef struct report {
-    hc_cli              *cli;
-    hc_bench_machine     machine;
-    hc_bench_render_row *rows;
-    int                  count;
-    cJSON               *list;
-    hc_cli_csv           csv;
-    bool                 failed;
-} report;
-
-static void add_json(report *r, const hc_bench_render_row *row)
+static cJSON *to_json(const hc_bench_render_row *row)
 {
     cJSON *object = cJSON_CreateObject();
     (void)cJSON_AddStringToObject(object, "field", row->field);
@@ -42,33 +34,25 @@ static void add_json(report *r, const hc_bench_render_row *row)
     (void)cJSON_AddNumberToObject(object, "lost", row->lost);
     (void)cJSON_AddNumberToObject(object, "made_up", row->made_up);
     (void)cJSON_AddNumberToObject(object, "unconverged", row->unconverged);
-    (void)cJSON_AddItemToArray(r->list, object);
+    return object;
 }
 
 static void row_done(void *user, const hc_bench_render_row *row)
 {
-    report              *r = user;
-    char                 line[LINE_MAX_BYTES];
-    hc_bench_render_row *rows = hc_cli_add_row(r->rows, r->count, row, sizeof *row);
-    if (rows == NULL) {
-        r->failed = true;
-        return;
-    }
-    r->rows = rows;
-    r->count++;
-    add_json(r, row);
+    hc_cli_run *r = user;
+    char        line[LINE_MAX_BYTES];
     (void)snprintf(line, sizeof line, "%s,%d,%s,%s,%d,%s,%d,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g\n",
                    row->field, row->side, row->map, row->method, row->steps, row->refine, row->runs,
                    row->milliseconds, row->mean_steps, row->mean_fetches, row->lost, row->made_up,
                    row->unconverged);
-    hc_cli_csv_add(&r->csv, line);
+    if (!hc_cli_run_add(r, row, sizeof *row, to_json(row), line)) {
+        return;
+    }
     hc_cli_say(r->cli, "%-8s %5d %-14s %-10s %5d %-6s %9.2f %7.2f %7.1f %8.3f %8.3f %8.3f\n",
                row->field, row->side, row->map, row->method, row->steps, row->refine,
                row->milliseconds, row->mean_steps, row->mean_fetches, 100.0 * row->lost,
                100.0 * row->made_up, 100.0 * row->unconverged);
-    if (r->cli->on_stdout) {
-        (void)fflush(stdout); /* a long run shows what it has */
-    }
+    hc_cli_run_flush(r);
 }
 
 /* ---- safe against loop and maxmip ---- */
@@ -80,12 +64,12 @@ static double wrong(const hc_bench_render_row *row)
 
 /* On the field of `like`: the first row of the method that is true enough, else the truest; NULL:
  * it has none. */
-static const hc_bench_render_row *truest(const report *r, const hc_bench_render_row *like,
+static const hc_bench_render_row *truest(const hc_cli_run *r, const hc_bench_render_row *like,
                                          const char *method)
 {
     const hc_bench_render_row *best = NULL;
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_render_row *row = &r->rows[i];
+        const hc_bench_render_row *row = row_at(r, i);
         if (row->side == like->side && row->field == like->field && strcmp(row->method, method) == 0
             && (best == NULL || (wrong(best) >= WRONG_MOST && wrong(row) < wrong(best)))) {
             best = row;
@@ -94,8 +78,8 @@ static const hc_bench_render_row *truest(const report *r, const hc_bench_render_
     return best;
 }
 
-static void add_ratio(report *r, cJSON *object, const hc_bench_render_row *safe, const char *method,
-                      const char *name)
+static void add_ratio(hc_cli_run *r, cJSON *object, const hc_bench_render_row *safe,
+                      const char *method, const char *name)
 {
     const hc_bench_render_row *other = truest(r, safe, method);
     if (other != NULL) {
@@ -112,11 +96,11 @@ static void add_ratio(report *r, cJSON *object, const hc_bench_render_row *safe,
     }
 }
 
-static void add_figures(report *r)
+static void add_figures(hc_cli_run *r)
 {
     cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_render_row *row = &r->rows[i];
+        const hc_bench_render_row *row = row_at(r, i);
         if (strcmp(row->map, "quadrant") == 0) {
             cJSON *object = cJSON_CreateObject();
             (void)cJSON_AddStringToObject(object, "field", row->field);
@@ -133,14 +117,10 @@ static void add_figures(report *r)
 
 /* ---- the work ---- */
 
-static bool stop_asked(void)
+static hc_result measure(hc_cli_run *r)
 {
-    return hc_cli_caught_signal() != 0;
-}
-
-static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
-{
-    const hc_cli_settings        *settings = &cli->settings;
+    const hc_cli_grounds         *in       = &r->in;
+    const hc_cli_settings        *settings = &r->cli->settings;
     const hc_bench_render_options options  = { .fields      = in->grounds,
                                                .field_count = in->fields.count,
                                                .sides       = in->numbers,
@@ -153,26 +133,16 @@ static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
                                                .seed        = settings->seed,
                                                .repeat      = settings->repeat,
                                                .threads     = settings->threads,
-                                               .stop        = stop_asked,
+                                               .stop        = hc_cli_run_stopped,
                                                .row_done    = row_done,
                                                .user        = r };
-    const hc_result               result   = hc_bench_render(&options, &cli->log);
-    if (result == HC_OK && (r->failed || r->csv.failed)) {
-        return hc_cli_fail_memory(cli);
-    }
-    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+    return hc_bench_render(&options, &r->cli->log);
 }
 
-static void begin(report *r)
+static void head(hc_cli_run *r)
 {
     const hc_cli_settings *settings = &r->cli->settings;
-    hc_bench_machine_read(&r->machine);
-    hc_cli_text(r->cli, "bench", "render");
     hc_cli_text(r->cli, "backend", hc_cli_backend_words((int)settings->backend));
-    hc_cli_show_machine(r->cli, &r->machine);
-    r->list = cJSON_AddArrayToObject(r->cli->json, "rows");
-    hc_cli_csv_add(&r->csv, "field,side,map,method,steps,refine,runs,milliseconds,mean_steps,"
-                            "mean_fetches,lost,made_up,unconverged\n");
     hc_cli_say(r->cli, "\n%-8s %5s %-14s %-10s %5s %-6s %9s %7s %7s %8s %8s %8s\n", "field", "side",
                "map", "method", "steps", "refine", "ms/frame", "steps", "fetches", "lost %",
                "made up", "unconv.");
@@ -180,24 +150,20 @@ static void begin(report *r)
 
 int hc_cli_run_bench_render(hc_cli *cli)
 {
-    hc_cli_grounds in   = { 0 };
-    report         r    = { .cli = cli };
-    int            code = HC_CLI_DONE;
+    static const hc_cli_run_kind kind = {
+        .name    = "render",
+        .fields  = "cobbles",
+        .sides   = "512",
+        .methods = NULL,
+        .columns = "field,side,map,method,steps,refine,runs,milliseconds,mean_steps,"
+                   "mean_fetches,lost,made_up,unconverged\n",
+        .head    = head,
+        .measure = measure,
+        .figures = add_figures
+    };
     if (cli->settings.methods != NULL) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "bench render measures all methods; leave out --methods");
     }
-    code = hc_cli_read_grounds(cli, &in, "cobbles", "512", NULL);
-    if (code == HC_CLI_DONE) {
-        begin(&r);
-        code = measure(cli, &in, &r);
-    }
-    if (code == HC_CLI_DONE) {
-        add_figures(&r);
-        code = hc_cli_write_reports(cli, r.csv.text);
-    }
-    hc_cli_free_grounds(&in);
-    free(r.rows);
-    free(r.csv.text);
-    return code;
+    return hc_cli_bench_run(cli, &kind);
 }

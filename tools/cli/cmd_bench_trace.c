@@ -1,28 +1,20 @@
 /* heightcast bench trace: casters on the same rays, as a table, JSON and CSV. */
-#include "bench_report.h"
-#include "bench_trace.h"
-#include "interrupt.h"
+#include "bench_run.h"
 
 #include "bench/trace_bench.h"
 
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINE_MAX_BYTES = 512 };
 
-typedef struct report {
-    hc_cli             *cli;
-    hc_bench_machine    machine;
-    hc_bench_trace_row *rows; /* one scene and size after another */
-    int                 count;
-    cJSON              *list;
-    hc_cli_csv          csv;
-    bool                failed;
-} report;
+static const hc_bench_trace_row *row_at(const hc_cli_run *r, int i)
+{
+    return (const hc_bench_trace_row *)r->rows + i;
+}
 
-static void add_json(report *r, const hc_bench_trace_row *row)
+static cJSON *to_json(const hc_bench_trace_row *row)
 {
     cJSON *object = cJSON_CreateObject();
     (void)cJSON_AddStringToObject(object, "field", row->field);
@@ -38,42 +30,34 @@ static void add_json(report *r, const hc_bench_trace_row *row)
     (void)cJSON_AddNumberToObject(object, "hits", row->hits);
     (void)cJSON_AddNumberToObject(object, "build_seconds", row->build_seconds);
     (void)cJSON_AddNumberToObject(object, "bytes", row->bytes);
-    (void)cJSON_AddItemToArray(r->list, object);
+    return object;
 }
 
 static void row_done(void *user, const hc_bench_trace_row *row)
 {
-    report             *r       = user;
-    const double        samples = (double)row->side * (double)row->side;
-    char                line[LINE_MAX_BYTES];
-    hc_bench_trace_row *rows = hc_cli_add_row(r->rows, r->count, row, sizeof *row);
-    if (rows == NULL) {
-        r->failed = true;
-        return;
-    }
-    r->rows = rows;
-    r->count++;
-    add_json(r, row);
+    hc_cli_run  *r       = user;
+    const double samples = (double)row->side * (double)row->side;
+    char         line[LINE_MAX_BYTES];
     (void)snprintf(line, sizeof line, "%s,%d,%s,%s,%s,%d,%zu,%d,%.6g,%.6g,%.4g,%.6g,%.0f\n",
                    row->field, row->side, row->rays, row->caster, row->mode, row->threads,
                    row->count, row->runs, row->seconds, row->rays_per_second, row->hits,
                    row->build_seconds, row->bytes);
-    hc_cli_csv_add(&r->csv, line);
+    if (!hc_cli_run_add(r, row, sizeof *row, to_json(row), line)) {
+        return;
+    }
     hc_cli_say(r->cli, "%-10s %5d %-7s %-16s %-8s %7d %10.2f %6.3f %10.1f %8.1f\n", row->field,
                row->side, row->rays, row->caster, row->mode, row->threads,
                1e-6 * row->rays_per_second, row->hits, 1e9 * row->build_seconds / samples,
                row->bytes / samples);
-    if (r->cli->on_stdout) {
-        (void)fflush(stdout); /* a long run shows what it has */
-    }
+    hc_cli_run_flush(r);
 }
 
 /* The fastest of others on the rays of `like`; NULL: there is none. */
-static const hc_bench_trace_row *best_other(const report *r, const hc_bench_trace_row *like)
+static const hc_bench_trace_row *best_other(const hc_cli_run *r, const hc_bench_trace_row *like)
 {
     const hc_bench_trace_row *best = NULL;
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_trace_row *row = &r->rows[i];
+        const hc_bench_trace_row *row = row_at(r, i);
         if (row->side == like->side && row->field == like->field && row->threads == like->threads
             && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") != 0
             && (best == NULL || row->rays_per_second > best->rays_per_second)) {
@@ -83,10 +67,10 @@ static const hc_bench_trace_row *best_other(const report *r, const hc_bench_trac
     return best;
 }
 
-static const hc_bench_trace_row *other_threads(const report *r, const hc_bench_trace_row *like)
+static const hc_bench_trace_row *other_threads(const hc_cli_run *r, const hc_bench_trace_row *like)
 {
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_trace_row *row = &r->rows[i];
+        const hc_bench_trace_row *row = row_at(r, i);
         if (row->side == like->side && row->field == like->field && row->threads > 1
             && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") == 0) {
             return row;
@@ -95,7 +79,7 @@ static const hc_bench_trace_row *other_threads(const report *r, const hc_bench_t
     return NULL;
 }
 
-static void add_figure(report *r, cJSON *list, const hc_bench_trace_row *row)
+static void add_figure(hc_cli_run *r, cJSON *list, const hc_bench_trace_row *row)
 {
     const hc_bench_trace_row *other  = best_other(r, row);
     const hc_bench_trace_row *more   = other_threads(r, row);
@@ -124,26 +108,22 @@ static void add_figure(report *r, cJSON *list, const hc_bench_trace_row *row)
 }
 
 /* What `fast` reaches with several threads over one, and over the best of the others. */
-static void add_figures(report *r)
+static void add_figures(hc_cli_run *r)
 {
     cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
     hc_cli_say(r->cli, "\n%-10s %5s %-7s %10s %10s  %s\n", "field", "side", "rays", "threads",
                "over best", "other caster (make bench-peers)");
     for (int i = 0; i < r->count; i++) {
-        if (strcmp(r->rows[i].caster, "fast") == 0 && r->rows[i].threads == 1) {
-            add_figure(r, list, &r->rows[i]);
+        if (strcmp(row_at(r, i)->caster, "fast") == 0 && row_at(r, i)->threads == 1) {
+            add_figure(r, list, row_at(r, i));
         }
     }
 }
 
-static bool stop_asked(void)
+static hc_result measure(hc_cli_run *r)
 {
-    return hc_cli_caught_signal() != 0;
-}
-
-static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
-{
-    const hc_cli_settings       *settings = &cli->settings;
+    const hc_cli_grounds        *in       = &r->in;
+    const hc_cli_settings       *settings = &r->cli->settings;
     const hc_bench_trace_options options  = { .fields       = in->grounds,
                                               .field_count  = in->fields.count,
                                               .sides        = in->numbers,
@@ -155,44 +135,30 @@ static int measure(hc_cli *cli, const hc_cli_grounds *in, report *r)
                                               .repeat       = settings->repeat,
                                               .threads      = settings->threads,
                                               .isa          = settings->map.cone.isa,
-                                              .stop         = stop_asked,
+                                              .stop         = hc_cli_run_stopped,
                                               .row_done     = row_done,
                                               .user         = r };
-    const hc_result              result   = hc_bench_trace(&options, &cli->log);
-    if (result == HC_OK && (r->failed || r->csv.failed)) {
-        return hc_cli_fail_memory(cli);
-    }
-    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+    return hc_bench_trace(&options, &r->cli->log);
 }
 
-static void begin(report *r)
+static void head(hc_cli_run *r)
 {
-    hc_bench_machine_read(&r->machine);
-    hc_cli_text(r->cli, "bench", "trace");
-    hc_cli_show_machine(r->cli, &r->machine);
-    r->list = cJSON_AddArrayToObject(r->cli->json, "rows");
-    hc_cli_csv_add(&r->csv,
-                   "field,side,rays,caster,mode,threads,count,runs,seconds,rays_per_second,hits,"
-                   "build_seconds,bytes\n");
     hc_cli_say(r->cli, "\n%-10s %5s %-7s %-16s %-8s %7s %10s %6s %10s %8s\n", "field", "side",
                "rays", "caster", "mode", "threads", "Mrays/s", "hits", "build ns", "bytes");
 }
 
 int hc_cli_run_bench_trace(hc_cli *cli)
 {
-    hc_cli_grounds in   = { 0 };
-    report         r    = { .cli = cli };
-    int            code = hc_cli_read_grounds(cli, &in, "fbm", "1024", hc_bench_caster);
-    if (code == HC_CLI_DONE) {
-        begin(&r);
-        code = measure(cli, &in, &r);
-    }
-    if (code == HC_CLI_DONE) {
-        add_figures(&r);
-        code = hc_cli_write_reports(cli, r.csv.text);
-    }
-    hc_cli_free_grounds(&in);
-    free(r.rows);
-    free(r.csv.text);
-    return code;
+    static const hc_cli_run_kind kind = {
+        .name    = "trace",
+        .fields  = "fbm",
+        .sides   = "1024",
+        .methods = hc_bench_caster,
+        .columns = "field,side,rays,caster,mode,threads,count,runs,seconds,rays_per_second,hits,"
+                   "build_seconds,bytes\n",
+        .head    = head,
+        .measure = measure,
+        .figures = add_figures
+    };
+    return hc_cli_bench_run(cli, &kind);
 }

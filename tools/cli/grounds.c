@@ -1,5 +1,5 @@
 /* What rays are measured on, from the command line. */
-#include "bench_trace.h"
+#include "grounds.h"
 
 #include <heightcast/io.h>
 

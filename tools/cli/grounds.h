@@ -1,6 +1,6 @@
-/* `bench trace`, `bench steps` and `bench render`, and what they share with `bench bake`. */
-#ifndef HC_CLI_BENCH_TRACE_H
-#define HC_CLI_BENCH_TRACE_H
+/* What the measurements are asked for, and where their reports go. */
+#ifndef HC_CLI_GROUNDS_H
+#define HC_CLI_GROUNDS_H
 
 #include "cli.h"
 #include "lists.h"
@@ -30,9 +30,5 @@ typedef struct hc_cli_grounds {
 int hc_cli_read_grounds(hc_cli *cli, hc_cli_grounds *grounds, const char *fields, const char *sides,
                         hc_cli_words *methods);
 void hc_cli_free_grounds(hc_cli_grounds *grounds);
-
-int hc_cli_run_bench_trace(hc_cli *cli);
-int hc_cli_run_bench_steps(hc_cli *cli);
-int hc_cli_run_bench_render(hc_cli *cli);
 
 #endif
