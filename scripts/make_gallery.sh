@@ -106,6 +106,9 @@ near=(--eye 9000,-16500,900 --at 12500,-13000,350 --colours plain --haze 1e30 --
 terrain near_steps "${near[@]}" --surface steps
 terrain near_blocky "${near[@]}" --blocky
 terrain near_smooth "${near[@]}"
+for texels in 1024 4096; do
+    terrain map_$texels --shadow-map $texels --size 480x270 --objects data/jacksboro_objects.txt
+done
 for colours in elevation slope; do
     terrain $colours --colours $colours --size 480x270
 done

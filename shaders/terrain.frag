@@ -36,7 +36,15 @@ uniform sampler2D u_bodies;
 uniform int       u_node_count; /* 0: there are none */
 uniform vec3      u_anchor;     /* from the anchor to the eye */
 uniform float     u_body_slip;  /* rays leave an object so far from it */
-uniform float     u_depth_unit; /* of the depth buffer: depth = unit / (unit + along), nearer is more */
+
+/* What the sun sees, as a map of depths, or u_map_side 0: then shadows are cast. */
+uniform sampler2D u_map;
+uniform int       u_map_side;
+uniform vec3      u_map_across, u_map_along; /* its axes, unit */
+uniform vec2      u_map_first, u_map_texel;  /* its corner, from the anchor; world units */
+uniform float     u_map_top;                 /* along the sun, from the anchor */
+
+uniform float u_depth_unit; /* of the depth buffer: depth = unit / (unit + along), nearer is more */
 
 layout(location = 0) out vec4 o_light;  /* linear rgb; distance along the ray, HC_MISS: nothing */
 layout(location = 1) out vec4 o_normal; /* xyz in the world; height of the hit */
@@ -353,26 +361,55 @@ bool body_shades(vec3 point)
 
 /* ---- see: light ------------------------------------------------------------------------------ */
 
-vec3 light(vec3 colour, vec3 normal, bool lit)
+vec3 light(vec3 colour, vec3 normal, float lit)
 {
-    float facing = lit ? max(dot(normal, u_sun), 0.0) : 0.0;
+    float facing = lit * max(dot(normal, u_sun), 0.0);
     float open_  = 0.5 + 0.5 * normal.z;
     return colour * (SUNLIGHT * facing + SKYLIGHT * open_ + BOUNCED * (1.0 - open_));
 }
 
-/* from_eye: in the world */
-bool dark_at(vec3 place, vec3 normal, vec3 from_eye)
+/* Outside of the map there is nothing. */
+float map_depth(ivec2 texel)
 {
-    return u_shadows && dot(normal, u_sun) > 0.0
-           && (in_shadow(place) || body_shades(u_anchor + from_eye));
+    bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(u_map_side)));
+    return inside ? texelFetch(u_map, texel, 0).r : HC_MISS;
+}
+
+/* Share of the sun's light at a point, from the anchor: the four texels around it, weighed. */
+float map_light(vec3 point, float facing)
+{
+    float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.05);
+    float depth = u_map_top - dot(point, u_sun) - max(u_map_texel.x, u_map_texel.y) * (0.5 + slope);
+    vec2  at    = vec2(dot(point, u_map_across), dot(point, u_map_along)) - u_map_first;
+    at          = at / u_map_texel - 0.5;
+    ivec2 cell  = ivec2(floor(at));
+    vec2  f     = at - vec2(cell);
+    vec4  open_ = vec4(lessThanEqual(vec4(depth), vec4(map_depth(cell), map_depth(cell + ivec2(1, 0)),
+                                                     map_depth(cell + ivec2(0, 1)),
+                                                     map_depth(cell + 1))));
+    return mix(mix(open_.x, open_.y, f.x), mix(open_.z, open_.w, f.x), f.y);
+}
+
+/* Share of the sun's light; from_eye: in the world */
+float lit_at(vec3 place, vec3 normal, vec3 from_eye)
+{
+    float facing = dot(normal, u_sun);
+    vec3  point  = u_anchor + from_eye;
+    if (!u_shadows || facing <= 0.0) {
+        return u_shadows ? 0.0 : 1.0; /* rough ground may face the sun where the ground does not */
+    }
+    if (u_map_side > 0) {
+        return map_light(point, facing);
+    }
+    return in_shadow(place) || body_shades(point) ? 0.0 : 1.0;
 }
 
 vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, vec3 from_eye, float top)
 {
-    bool dark   = dark_at(hit.place, normal, from_eye);
+    float lit   = lit_at(hit.place, normal, from_eye);
     vec3 colour = is_cut(hit) ? CUT_GROUND
                               : ground_colour(hit.place, normal, u_footprint * hit.t);
-    return haze(light(colour, normal, !dark), direction, top, hit.t);
+    return haze(light(colour, normal, lit), direction, top, hit.t);
 }
 
 float depth_of(float along)
@@ -409,8 +446,8 @@ void main(void)
     if (along < 0.0) {
         discard;
     }
-    bool dark    = dark_at(place, normal, v_from_eye);
-    vec3 colour  = haze(light(v_colour, normal, !dark), direction, u_haze_top - shift.z, distance_);
+    float lit    = lit_at(place, normal, v_from_eye);
+    vec3 colour  = haze(light(v_colour, normal, lit), direction, u_haze_top - shift.z, distance_);
     o_light      = vec4(colour, distance_);
     o_normal     = vec4(normal, place.z);
     o_counts     = vec4(0.0);

@@ -222,6 +222,8 @@ static void objects(void **state)
         compare(&scene, bare == 1 ? HC_VIEW_NORMAL : HC_VIEW_SHADED);
         compare(&scene, bare == 1 ? HC_VIEW_DEPTH : HC_VIEW_HEIGHT);
         compare(&scene, bare == 1 ? HC_VIEW_CROSSINGS : HC_VIEW_MISSED);
+        scene.shadow_map = 150;
+        compare(&scene, HC_VIEW_SHADED);
     }
     for (int i = 0; i <= HC_SOLID_HOUSE; i++) {
         hc_mesh_destroy((hc_mesh *)object[i].mesh);
@@ -230,7 +232,7 @@ static void objects(void **state)
 
 /* ---- hits ------------------------------------------------------------------------------------ */
 
-/* docs/algorithms.md, section 22.7, has the bound, which is for angles of at least 1/64 between ray
+/* docs/algorithms.md, section 22.8, has the bound, which is for angles of at least 1/64 between ray
  * and surface. Sharper ones are as rare as edges. */
 static void depths_agree(void **state)
 {

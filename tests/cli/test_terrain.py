@@ -83,7 +83,7 @@ class Terrain(Case):
         plain = self.picture("--spacing", "20")
         for option in [["--exaggeration", "2"], ["--elevation", "0:90"], ["--spacing", "20,30"],
                        ["--colours", "elevation"], ["--colours", "slope"], ["--colours", "plain"],
-                       ["--blocky"], ["--light", "1,0,0.2"], ["--shadows", "off"],
+                       ["--blocky"], ["--light", "1,0,0.2"], ["--shadows", "off"], ["--shadow-map", "40"],
                        ["--haze", "50"], ["--tour", "walk"], ["--tour", "up"], ["--tour", "orbit"],
                        ["--moment", "0.3"], ["--above", "400"], ["--fov", "40"],
                        ["--surface", "steps"], ["--at", "0,0,0"], ["--eye", "5,-400,300"],

@@ -298,6 +298,41 @@ static void the_ground_shades_boxes(void **state)
     hc_mesh_destroy(box);
 }
 
+/* The same from a map, but for what lies within a few texels of an edge. */
+static void a_map_of_shadows_has_them_but_for_edges(void **state)
+{
+    (void)state;
+    hc_mesh         *ball   = solid(HC_SOLID_BALL);
+    const hc_object  object = { .mesh = ball, .place = { 280.0, -60.0, 150.0 }, .size = 40.0 };
+    hc_terrain_scene scene  = scene_of(cliff);
+    const hc_camera  camera = from_above(400.0F);
+    scene.ground            = HC_GROUND_PLAIN;
+    scene.objects           = &object;
+    scene.object_count      = 1;
+    scene.sun[0]            = -1.0;
+    scene.sun[2]            = 2.0;
+    draw_once(&first, &scene, NULL, &camera);
+    scene.shadow_map = 400; /* texels of one unit */
+    draw_once(&second, &scene, NULL, &camera);
+    assert_memory_equal(first.depth, second.depth, sizeof first.depth);
+    int same = 0, dark = 0;
+    for (int i = 0; i < PIXELS; i++) {
+        const bool alike = fabsf(first.rgb[3 * i] - second.rgb[3 * i]) < 1e-6F;
+        double     place[2];
+        place_below(place, &camera, i);
+        same += alike ? 1 : 0;
+        if (place[0] > 175.0 && place[0] < 240.0 && fabs(place[1] + 160.0) < 150.0) {
+            assert_true(alike);
+            dark++;
+        }
+    }
+    assert_true(dark > 100 && same > PIXELS - PIXELS / 20);
+    scene.shadow_map = 3;
+    draw_once(&second, &scene, NULL, &camera);
+    assert_memory_not_equal(first.rgb, second.rgb, sizeof first.rgb);
+    hc_mesh_destroy(ball);
+}
+
 /* Behind the cliff there is nothing to see of a house; on it there is, turned or not. */
 static void the_ground_hides_a_house(void **state)
 {
@@ -572,6 +607,9 @@ static void bad_scenes_are_refused(void **state)
     bad      = good;
     bad.haze = -1.0F;
     refuse(&bad, NULL, "scene.haze");
+    bad            = good;
+    bad.shadow_map = 16385;
+    refuse(&bad, NULL, "scene.shadow_map");
     bad              = good;
     bad.trace.method = HC_TRACE_SAFE;
     refuse(&bad, NULL, "ratios");
@@ -658,6 +696,7 @@ int main(void)
         cmocka_unit_test(a_cliff_throws_its_shadow),
         cmocka_unit_test(a_ball_hides_the_ground_and_shades_it),
         cmocka_unit_test(the_ground_shades_boxes),
+        cmocka_unit_test(a_map_of_shadows_has_them_but_for_edges),
         cmocka_unit_test(the_ground_hides_a_house),
         cmocka_unit_test(exact_methods_lose_nothing_from_anywhere),
         cmocka_unit_test(few_steps_lose_much),

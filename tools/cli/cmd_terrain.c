@@ -41,10 +41,10 @@ static int check_pair(hc_cli *cli, const char *a, const char *b)
 
 static int check_meaning(hc_cli *cli)
 {
-    static const char *const pairs[][2] = { { "eye", "tour" },      { "eye", "path" },
-                                            { "eye", "frames" },    { "eye", "moment" },
-                                            { "tour", "path" },     { "frames", "moment" },
-                                            { "colours", "albedo" } };
+    static const char *const pairs[][2] = { { "eye", "tour" },       { "eye", "path" },
+                                            { "eye", "frames" },     { "eye", "moment" },
+                                            { "tour", "path" },      { "frames", "moment" },
+                                            { "colours", "albedo" }, { "shadows", "shadow-map" } };
     const hc_cli_settings   *settings   = &cli->settings;
     const hc_cones           cones      = settings->map.cone.cones;
     int                      code       = check_size(cli);

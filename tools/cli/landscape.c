@@ -127,6 +127,7 @@ static void choose_scene(hc_cli_landscape *landscape, const hc_cli *cli)
     scene->object_count      = landscape->objects.count;
     scene->blocky            = settings->terrain.blocky;
     scene->no_shadows        = settings->render.shadows != 0;
+    scene->shadow_map        = settings->terrain.shadow_map;
     scene->haze              = settings->terrain.haze;
     memcpy(scene->spacing, settings->rays.spacing, sizeof scene->spacing);
     memcpy(scene->offset, settings->terrain.offset, sizeof scene->offset);

@@ -64,6 +64,7 @@ typedef struct hc_cli_terrain {
     float       exaggeration, above, haze;
     double      offset[3], moment;
     bool        blocky;
+    int         shadow_map;
     int         frames; /* 0: one picture, at `moment` */
     const char *path, *objects;
     hc_cli_size tiles; /* columns and rows */

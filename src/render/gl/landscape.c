@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, BODIES, TEXTURES };
+enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, BODIES, SUNVIEW, TEXTURES };
 
 enum { BODY_COLUMNS = 4096 };
 
@@ -66,6 +66,11 @@ static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc
     }
     if (result == HC_OK) {
         result = load_bounds(&textures[EXACT_BOUNDS], EXACT_BOUNDS, terrain->exact, log);
+    }
+    if (result == HC_OK && terrain->sunview.side > 0) {
+        result =
+            hc_upload_image(&textures[SUNVIEW], SUNVIEW, terrain->sunview.depths,
+                            terrain->sunview.side, terrain->sunview.side, 1, "shadow map", log);
     }
     if (result == HC_OK && scene->ground == HC_GROUND_IMAGE) {
         result = hc_upload_image(&textures[IMAGE], IMAGE, scene->image, scene->image_width,
@@ -128,6 +133,17 @@ static void scale_of(double scale[3], const hc_terrain *terrain)
     scale[2]              = 1.0 / p->scale_z;
 }
 
+static void set_sunview(unsigned program, const hc_sunview *view)
+{
+    hc_upload_int(program, "u_map", SUNVIEW);
+    hc_upload_int(program, "u_map_side", view->side);
+    hc_upload_vector(program, "u_map_across", view->across);
+    hc_upload_vector(program, "u_map_along", view->along);
+    hc_upload_pair(program, "u_map_first", view->first[0], view->first[1]);
+    hc_upload_pair(program, "u_map_texel", view->texel[0], view->texel[1]);
+    hc_upload_float(program, "u_map_top", view->top);
+}
+
 static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
 {
     const hc_terrain_scene *scene  = &terrain->scene;
@@ -138,6 +154,7 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_int(program, "hc_heights", HEIGHTS);
     hc_upload_int(program, "hc_ratios", RATIOS);
     hc_upload_int(program, "hc_bounds", exact ? EXACT_BOUNDS : BOUNDS);
+    set_sunview(program, &terrain->sunview);
     hc_upload_int(program, "u_image", IMAGE);
     hc_upload_int(program, "u_bodies", BODIES);
     hc_upload_int(program, "u_node_count",

@@ -258,6 +258,14 @@ hc_body_hit hc_bodies_nearest(const hc_bodies *bodies, const double origin[3],
     return hit;
 }
 
+void hc_bodies_widen(double low[3], double high[3], const hc_bodies *bodies)
+{
+    for (int k = 0; k < 3; k++) {
+        low[k]  = fmin(low[k], bodies->nodes[0].low[k]);
+        high[k] = fmax(high[k], bodies->nodes[0].high[k]);
+    }
+}
+
 /* ---- for shaders --------------------------------------------------------------------------- */
 
 int hc_bodies_node_count(const hc_bodies *bodies)

@@ -19,6 +19,9 @@ hc_result hc_bodies_create(hc_bodies **bodies, const hc_object *objects, const d
                            int count, hc_log *log);
 void      hc_bodies_destroy(hc_bodies *bodies);
 
+/* Make a box hold them. */
+void hc_bodies_widen(double low[3], double high[3], const hc_bodies *bodies);
+
 /* The tree and its triangles as shaders/terrain.frag reads them, from `anchor`; the texels' number,
  * and that of the nodes. */
 int  hc_bodies_node_count(const hc_bodies *bodies);

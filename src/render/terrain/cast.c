@@ -59,9 +59,12 @@ static void cast_to_sun(const scratch *s, const job *j, int count)
         s->to_sun[i] = hc_terrain_sun_ray(terrain, &s->glances[i]);
     }
     hc_trace_any_many(terrain->tracer, s->dark, s->to_sun, (size_t)count);
-    for (int i = 0; terrain->bodies != NULL && i < count; i++) {
-        const bool asks = s->dark[i] == 0 && s->to_sun[i].tmin <= s->to_sun[i].tmax;
-        s->dark[i] |= asks && hc_terrain_body_shades(terrain, &s->glances[i]) ? 1 : 0;
+    for (int i = 0; i < count; i++) {
+        if (s->to_sun[i].tmin > s->to_sun[i].tmax) {
+            s->dark[i] = 1; /* it faces away, though rough ground may face the sun here and there */
+        } else if (s->dark[i] == 0 && terrain->bodies != NULL) {
+            s->dark[i] = hc_terrain_body_shades(terrain, &s->glances[i]) ? 1 : 0;
+        }
     }
 }
 
@@ -112,7 +115,9 @@ static void add(const scratch *s, const job *j, piece p)
         for (int k = 0; k < 3; k++) {
             direction[k] = (double)glance->ray.direction[k];
         }
-        hc_terrain_see(&sample, terrain, glance, j->footprint, s->dark[i] == 0);
+        const double lit =
+            terrain->sunview.side > 0 ? hc_terrain_map_light(terrain, glance) : 1.0 - s->dark[i];
+        hc_terrain_see(&sample, terrain, glance, j->footprint, lit);
         if (terrain->exact != NULL) {
             sample.exact = fminf(s->exact[i].t, (float)glance->body.t);
         }
@@ -125,7 +130,7 @@ static void draw_piece(const scratch *s, const job *j, piece p)
 {
     aim(s->rays, j, p);
     cast(s, j, p.count);
-    if (!j->terrain->scene.no_shadows) {
+    if (!j->terrain->scene.no_shadows && j->terrain->sunview.side == 0) {
         cast_to_sun(s, j, p.count);
     }
     add(s, j, p);

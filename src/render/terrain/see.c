@@ -117,21 +117,32 @@ void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain)
 
 bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance)
 {
+    const double slip = hc_terrain_body_slip(terrain);
+    double       point[3];
+    point_of(point, glance);
+    return hc_bodies_nearest(terrain->bodies, point, terrain->sun, slip, INFINITY).t < INFINITY;
+}
+
+/* ---- the map ------------------------------------------------------------------------------- */
+
+double hc_terrain_map_light(const hc_terrain *terrain, const hc_glance *glance)
+{
     double point[3], normal[3];
+    if (!(distance_of(glance) < INFINITY)) {
+        return 0.0;
+    }
     point_of(point, glance);
     normal_at(normal, terrain, glance);
-    return hc_dot(normal, terrain->sun) > 0.0
-           && hc_bodies_nearest(terrain->bodies, point, terrain->sun, hc_terrain_body_slip(terrain),
-                                INFINITY)
-                      .t
-                  < INFINITY;
+    const double facing = hc_dot(normal, terrain->sun);
+    hc_add_scaled(point, point, -1.0, terrain->low);
+    return facing > 0.0 ? hc_sunview_light(&terrain->sunview, terrain->sun, point, facing) : 0.0;
 }
 
 /* ---- light --------------------------------------------------------------------------------- */
 
-static void light(double rgb[3], const hc_terrain *terrain, const double normal[3], bool lit)
+static void light(double rgb[3], const hc_terrain *terrain, const double normal[3], double lit)
 {
-    const double facing = lit ? fmax(hc_dot(normal, terrain->sun), 0.0) : 0.0;
+    const double facing = lit * fmax(hc_dot(normal, terrain->sun), 0.0);
     const double open   = 0.5 + 0.5 * normal[2];
     for (int k = 0; k < 3; k++) {
         rgb[k] *= SUNLIGHT[k] * facing + SKYLIGHT[k] * open + BOUNCED[k] * (1.0 - open);
@@ -153,7 +164,7 @@ static void colour_at(double rgb[3], double normal[3], const hc_terrain *terrain
 }
 
 static void see_surface(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
-                        double footprint, bool lit)
+                        double footprint, double lit)
 {
     const double distance = distance_of(glance);
     double       normal[3], rgb[3];
@@ -192,7 +203,7 @@ static void take_numbers(hc_sample *sample, const hc_terrain *terrain, const hc_
 }
 
 void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
-                    double footprint, bool lit)
+                    double footprint, double lit)
 {
     double origin[3], direction[3], sky[3];
     take_numbers(sample, terrain, glance);

@@ -7,6 +7,7 @@
 
 #include <string.h>
 
+enum { SHADOW_MAP_MAX = 16384 };
 enum { CONE_STEPS = 512 }; /* the RaycastTerrain sample's */
 
 static const double FLATNESS      = 32.0; /* sides over heights, where no file says more */
@@ -52,6 +53,7 @@ static hc_result check_scene(const hc_terrain_scene *scene, hc_log *log)
     CHECK(check_place(scene, log));
     CHECK(check_whole("scene.ground", (int)scene->ground, 0, HC_GROUND_PLAIN, log));
     CHECK(check_point("scene.sun", scene->sun, log));
+    CHECK(check_whole("scene.shadow_map", scene->shadow_map, 0, SHADOW_MAP_MAX, log));
     if (!(scene->haze >= 0.0F)) {
         return hc_fail(log, HC_ERROR_ARGUMENT, "scene.haze is %g; it must be above 0",
                        (double)scene->haze);

@@ -115,6 +115,9 @@ hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
     if (result == HC_OK) {
         result = put_objects(*terrain, log);
     }
+    if (result == HC_OK && scene->shadow_map > 0 && !scene->no_shadows) {
+        result = hc_sunview_make(&(*terrain)->sunview, *terrain, scene->shadow_map, log);
+    }
     if (result == HC_OK && (*terrain)->options.backend == HC_BACKEND_GL) {
         result = hc_terrain_gl_make(&(*terrain)->gl, *terrain, log);
     }
@@ -131,6 +134,7 @@ void hc_terrain_destroy(hc_terrain *terrain)
         hc_terrain_gl_free(terrain->gl);
         hc_tracer_destroy(terrain->tracer);
         hc_tracer_destroy(terrain->exact);
+        hc_sunview_free(&terrain->sunview);
         hc_bodies_destroy(terrain->bodies);
         free(terrain->colours);
         free(terrain);

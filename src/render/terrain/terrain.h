@@ -7,6 +7,7 @@
 #include "../eye.h"
 #include "../sums.h"
 #include "bodies.h"
+#include "sunview.h"
 
 struct hc_terrain {
     hc_terrain_scene  scene; /* defaults resolved */
@@ -19,6 +20,7 @@ struct hc_terrain {
     float (*colours)[3];               /* of the objects                                 */
     struct hc_terrain_gl *gl;          /* NULL: the CPU draws                            */
     double                sun[3];      /* unit                                           */
+    hc_sunview            sunview;     /* side 0: shadows are cast */
     double shadow_slip; /* a shadow's cause lies at least so far before the lit point */
     double slack;       /* hits farther from the exact ones are wrong         */
 };
@@ -43,9 +45,12 @@ double hc_terrain_body_slip(const hc_terrain *terrain);
 /* Is an object between what the ray came to and the sun? */
 bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance);
 
-/* What a ray sees; footprint: width of its pixel at distance 1. `lit`: it comes to the sun. */
+/* Share of the sun's light that comes to what the ray came to, from the map. */
+double hc_terrain_map_light(const hc_terrain *terrain, const hc_glance *glance);
+
+/* What a ray sees; footprint: width of its pixel at distance 1. lit: share of the sun's light. */
 void hc_terrain_see(hc_sample *sample, const hc_terrain *terrain, const hc_glance *glance,
-                    double footprint, bool lit);
+                    double footprint, double lit);
 
 /* The ray from the sun to a hit, which ends before it; one without length for a miss. */
 hc_ray hc_terrain_sun_ray(const hc_terrain *terrain, const hc_glance *glance);
