@@ -32,9 +32,11 @@ HC_API void      hc_gpu_destroy(hc_gpu *gpu);
 HC_API const char *hc_gpu_name(const hc_gpu *gpu); /* as the driver says; lives as long as `gpu` */
 HC_API bool        hc_gpu_rounds(const hc_gpu *gpu); /* as IEEE 754 does */
 
-/* Seconds of the last bake that the shaders ran, by the wall clock with everything finished: less
- * compiling, loading and reading back. */
-HC_API double hc_gpu_seconds(const hc_gpu *gpu);
+/* Seconds of the last bake that the shaders ran, less compiling, loading and reading back: by the
+ * GPU's time stamps, with Mesa's software renderers by the wall clock, everything finished. Which
+ * says hc_gpu_timer. */
+HC_API double      hc_gpu_seconds(const hc_gpu *gpu);
+HC_API const char *hc_gpu_timer(const hc_gpu *gpu); /* static */
 
 /* As hc_bake_cone_map. Of the options, isa and threads do not count.
  *

@@ -18,7 +18,7 @@ enum {
     FALLING       = 4        /* searches of relaxed cones */
 };
 
-/* Dispatches are halved and doubled to take this long. */
+/* Dispatches are made smaller and larger to take this long. */
 static const double PIECE_SECONDS = 0.05;
 
 typedef struct baking {
@@ -49,9 +49,9 @@ static hc_result report(const baking *b, double share)
 
 static int paced(int rows, double seconds)
 {
-    return seconds > 2.0 * PIECE_SECONDS && rows > 1 ? rows / 2
-           : seconds < 0.5 * PIECE_SECONDS           ? 2 * rows
-                                                     : rows;
+    const int more = seconds < 0.125 * PIECE_SECONDS ? 4 : seconds < 0.5 * PIECE_SECONDS ? 2 : 1;
+    const int less = seconds > 2.0 * PIECE_SECONDS && rows > 1 ? 2 : 1;
+    return rows > HC_SIDE_MAX ? rows : rows * more / less;
 }
 
 static int least(int a, int b)

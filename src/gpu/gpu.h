@@ -27,6 +27,7 @@ struct hc_gpu {
     hc_map_baker  baker;
     char          name[HC_GPU_NAME_MAX];
     bool          rounds; /* tests may say that it does not */
+    bool          timer;  /* the GPU's own times seconds; tests may choose */
     double        seconds;
     unsigned      programs[HC_GPU_SHADERS][2][2]; /* by l2, sided; 0: not compiled yet */
 };
@@ -50,7 +51,7 @@ hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int heig
 void hc_gpu_warm_up(unsigned program);
 
 /* One dispatch over the texels first .. end - 1 of the program in use; waits, adds to seconds, and
- * gives the seconds that it took. */
+ * gives the seconds that it took by the wall clock. */
 double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const int end[2]);
 
 void hc_gpu_set_pair(unsigned program, const char *name, int x, int y);

@@ -34,6 +34,12 @@ bool hc_gpu_rounds(const hc_gpu *gpu)
     return false;
 }
 
+const char *hc_gpu_timer(const hc_gpu *gpu)
+{
+    (void)gpu;
+    return "none";
+}
+
 double hc_gpu_seconds(const hc_gpu *gpu)
 {
     (void)gpu;

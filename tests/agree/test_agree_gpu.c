@@ -151,6 +151,24 @@ static void drivers_that_do_not_round(void **state)
 #endif
 }
 
+/* Both timers count; how well is not for tests to judge. */
+static void timers(void **state)
+{
+    (void)state;
+    skip_without_gpu();
+#ifdef HC_HAVE_GL
+    const bool     before = gpu->timer;
+    const hc_field field  = field_of("fbm", 61, 47, HC_WRAP_UV);
+    for (int timer = 0; timer < 2; timer++) {
+        gpu->timer = timer == 1;
+        assert_int_equal(hc_gpu_bake_cone_map(gpu, by_gpu, &field, NULL, NULL), HC_OK);
+        assert_true(hc_gpu_seconds(gpu) > 0.0 && hc_gpu_seconds(gpu) < 60.0);
+        assert_non_null(strstr(hc_gpu_timer(gpu), timer == 1 ? "time stamps" : "wall clock"));
+    }
+    gpu->timer = before;
+#endif
+}
+
 /* ---- pyramids and maps ----------------------------------------------------------------------- */
 
 static void pyramids(void **state)
@@ -314,6 +332,7 @@ int main(void)
         cmocka_unit_test(every_method),
         cmocka_unit_test(every_wrap),
         cmocka_unit_test(drivers_that_do_not_round),
+        cmocka_unit_test(timers),
         cmocka_unit_test(pyramids),
         cmocka_unit_test(bounds_and_slopes),
         cmocka_unit_test(whole_maps),

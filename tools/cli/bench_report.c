@@ -92,7 +92,7 @@ int hc_cli_bench_begin(hc_cli_bench *bench)
     if (bench->gpu != NULL) {
         hc_cli_text(cli, "gpu", hc_gpu_name(bench->gpu));
         hc_cli_text(cli, "gpu_rounds", hc_gpu_rounds(bench->gpu) ? "yes" : "no");
-        hc_cli_text(cli, "timer", "wall clock, shaders alone, all finished");
+        hc_cli_text(cli, "timer", hc_gpu_timer(bench->gpu));
     }
     hc_cli_show_machine(cli, &bench->machine);
     bench->list = cJSON_AddArrayToObject(cli->json, "rows");
