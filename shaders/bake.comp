@@ -1,23 +1,23 @@
-/* bake.comp: max-mip pyramids and exact or quick cone maps on the GPU. Compute shaders of GLSL 4.30,
- * several in one text: put your #version line in front of it and
+/* bake.comp: max-mip pyramids and exact or quick cone maps on the GPU. Compute shaders of GLSL
+ * 4.30, several in one text: put your #version line in front of it and
  *     #define HC_BAKE HC_PYRAMID    one level of a pyramid from the level below it
  *                     HC_BOUNDS     the highest or lowest corner of each bilinear cell
  *                     HC_GRADIENT   slopes along one axis
  *                     HC_BRUTE      the steepest of all samples, some rows of them at a time
  *                     HC_EXACT      the same by pruned search of a max pyramid
- *                     HC_QUICK      the blocks around a texel on every level (2022, algorithms 1, 2)
+ *                     HC_QUICK      the blocks around a texel on every level (2022, 1 and 2)
  *                     HC_FALLING    the samples that limit relaxed cones of one quadrant (2024)
  *                     HC_GEMS       relaxed cones by ray sampling (2007), likewise
  *                     HC_ROUNDING   what this driver makes of quotients and roots
  *     #define HC_L2 1               round cones; 0: diamonds
  *     #define HC_SIDED 1            samples of the quadrant u_sides only; 0: all
  *
- * Searches leave in u_best the largest steepness: rise * weight, the weight one over the distance in
- * texture units; 0: nothing is higher. The ratio of the cone is one over that: include/heightcast/
- * bake.h has the canonical formula, and include/heightcast/gpu.h what this gives of it.
+ * Searches leave in u_best the largest steepness: rise * weight, the weight one over the distance
+ * in texture units; 0: nothing is higher. The ratio of the cone is one over that: include/
+ * heightcast/bake.h has the canonical formula, and include/heightcast/gpu.h what this gives of it.
  *
- * A dispatch does the texels u_first .. u_end - 1, so that large fields can be split into pieces that
- * no driver takes for a hang. */
+ * A dispatch does the texels u_first .. u_end - 1, so that large fields can be split into pieces
+ * that no driver takes for a hang. */
 
 #define HC_PYRAMID 1
 #define HC_BRUTE 2
@@ -257,7 +257,7 @@ void run(ivec2 here)
 
 uniform ivec2 u_rows; /* first row that is looked at, and the one after the last */
 
-/* The columns x that count are from.x .. from.y - 1; where they lie `shift` beyond, their images. */
+/* The columns that count are from.x .. from.y - 1, or their images `shift` beyond. */
 float look_along(ivec2 from, int shift, ivec2 here, int y, float reach_v, float height, float found)
 {
     for (int x = from.x; x < from.y; x++) {
@@ -269,8 +269,8 @@ float look_along(ivec2 from, int shift, ivec2 here, int y, float reach_v, float 
     return found;
 }
 
-/* Which columns count where they are: those before .x do so a period further right, those from .y on
- * a period further left. */
+/* Which columns count where they are: those before .x do so a period further right, those from .y
+ * on a period further left. */
 ivec2 nearest_images(int here, int size, bool wraps, int side)
 {
     if (!wraps) {
@@ -426,9 +426,9 @@ bool next_of(family f, inout ivec2 block)
     return true;
 }
 
-/* From the block that was looked at to the next one: beside it, or else its parent. Along the blocks
- * that hold `here` the search climbs: those are not looked at, but their siblings from the first.
- * False: there is none beside it. */
+/* From the block that was looked at to the next one: beside it, or else its parent. Along the
+ * blocks that hold `here` the search climbs: those are not looked at, but their siblings from the
+ * first. False: there is none beside it. */
 bool advance(inout ivec2 block, inout int level, ivec2 here)
 {
     ivec2  own    = block_above(here, level);

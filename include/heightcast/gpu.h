@@ -24,8 +24,8 @@ extern "C" {
  * Belongs to the thread that made it. */
 typedef struct hc_gpu hc_gpu;
 
-/* HC_ERROR_UNSUPPORTED where there is no EGL, no OpenGL 4.3, or this build has none; HC_ERROR_MEMORY.
- * Destroy with hc_gpu_destroy, which accepts NULL. */
+/* HC_ERROR_UNSUPPORTED where there is no EGL, no OpenGL 4.3, or this build has none;
+ * HC_ERROR_MEMORY. Destroy with hc_gpu_destroy, which accepts NULL. */
 HC_API hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log);
 HC_API void      hc_gpu_destroy(hc_gpu *gpu);
 

@@ -137,11 +137,14 @@ static hc_result try_weights(hc_gpu *gpu, bool l2, hc_log *log)
     unsigned         textures[2] = { 0, 0 }, program;
     float            trials[TRIALS], weights[TRIALS];
     fill_trials(trials);
+    const int side   = TRIAL_SIDE;
     hc_result result = hc_gpu_use(gpu, &program, HC_GPU_ROUNDING, l2, false, log);
-    result           = result != HC_OK ? result
-                                       : hc_gpu_texture(&textures[0], TRIAL_SIDE, TRIAL_SIDE, 1, NULL, log);
-    result           = result != HC_OK ? result
-                                       : hc_gpu_texture(&textures[1], TRIAL_SIDE, TRIAL_SIDE, 1, trials, log);
+    if (result == HC_OK) {
+        result = hc_gpu_texture(&textures[0], side, side, 1, NULL, log);
+    }
+    if (result == HC_OK) {
+        result = hc_gpu_texture(&textures[1], side, side, 1, trials, log);
+    }
     if (result == HC_OK) {
         glBindImageTexture(0, textures[0], 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         glUniform1i(glGetUniformLocation(program, "u_heights"), 0);

@@ -47,7 +47,8 @@ hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, c
 hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
                               hc_extreme extreme, hc_log *log);
 
-/* Drivers finish compiling when a program runs for the first time: have it done with what is bound. */
+/* Drivers finish compiling when a program runs for the first time: have it done, with what is
+ * bound. */
 void hc_gpu_warm_up(unsigned program);
 
 /* One dispatch over the texels first .. end - 1 of the program in use; waits, adds to seconds, and

@@ -43,9 +43,9 @@ __attribute__((format(printf, 3, 4))) int hc_cli_fail(hc_cli *cli, int code, con
 /* For a result of the library, whose words are in cli->log. */
 int hc_cli_fail_result(hc_cli *cli, hc_result result);
 int hc_cli_fail_memory(hc_cli *cli);
-/* True if the CPU may do what OpenGL could not: with --backend gl where there is no OpenGL for it, with
- * auto after any failure of graphics. Then it has been warned of, and the backend is the CPU. `does`:
- * "bakes", "draws". */
+/* True if the CPU may do what OpenGL could not: with --backend gl where there is no OpenGL for it,
+ * with auto after any failure of graphics. Then it has been warned of, and the backend is the CPU.
+ * `does`: "bakes", "draws". */
 bool hc_cli_falls_back(hc_cli *cli, hc_result result, const char *does);
 
 /* "warning: ..." on standard error, unless -q; "warnings" in the JSON object. */
