@@ -2,7 +2,7 @@
 
 import json
 
-from program import INPUT_OUTPUT, USAGE, Case, main
+from program import INPUT_OUTPUT, MEMORY, USAGE, Case, main
 
 
 class Gen(Case):
@@ -58,6 +58,10 @@ class Gen(Case):
         self.refused("gen", "fbm", "a.png", "--size", 9, code=INPUT_OUTPUT, says="--overwrite")
         self.run_program("gen", "fbm", "a.png", "--size", 9, "--overwrite")
         self.assertNotEqual(self.path("a.png").read_bytes(), b"precious")
+
+    def test_too_large(self):
+        self.refused("gen", "flat", "huge.pgm", "--size", 1048576, code=MEMORY,
+                     says=["1048576 x 1048576", "--size"])
 
 
 if __name__ == "__main__":

@@ -115,7 +115,12 @@ int hc_cli_run_gen(hc_cli *cli)
     }
     const size_t samples = (size_t)settings->size.width * (size_t)settings->size.height;
     float       *heights = malloc(samples * sizeof *heights);
-    code                 = heights == NULL ? hc_cli_fail_memory(cli) : make_and_save(cli, heights);
+    if (heights == NULL) {
+        return hc_cli_fail(cli, HC_CLI_MEMORY,
+                           "no memory for %d x %d samples; choose a smaller --size",
+                           settings->size.width, settings->size.height);
+    }
+    code = make_and_save(cli, heights);
     free(heights);
     if (code == HC_CLI_DONE) {
         hc_cli_text(cli, "field", settings->paths[0]);
