@@ -216,22 +216,22 @@ static void bounds_and_slopes(void **state)
 /* The same bytes of every kind of map, coded and not. */
 static void whole_maps(void **state)
 {
-    static uint8_t texels[2][SAMPLES_MAX * 32];
-    static const struct {
-        hc_map_options options;
-    } rows[]             = { { { .kind = HC_MAP_CONE } },
-                             { { .kind = HC_MAP_CONE, .layout = HC_LAYOUT_DUMMER } },
-                             { { .kind = HC_MAP_CONE, .bits = 16, .cone = { .cones = HC_CONES_QUAD } } },
-                             { { .kind = HC_MAP_RELAXED, .bits = 8, .layout = HC_LAYOUT_RG } },
-                             { { .kind = HC_MAP_PYRAMID, .bits = 8 } },
-                             { { .kind = HC_MAP_BOUNDS } },
-                             { { .kind = HC_MAP_GRADIENT } } };
+    static uint8_t              texels[2][SAMPLES_MAX * 32];
+    static const hc_map_options rows[] = {
+        { .kind = HC_MAP_CONE },
+        { .kind = HC_MAP_CONE, .layout = HC_LAYOUT_DUMMER },
+        { .kind = HC_MAP_CONE, .bits = 16, .cone = { .cones = HC_CONES_QUAD } },
+        { .kind = HC_MAP_RELAXED, .bits = 8, .layout = HC_LAYOUT_RG },
+        { .kind = HC_MAP_PYRAMID, .bits = 8 },
+        { .kind = HC_MAP_BOUNDS },
+        { .kind = HC_MAP_GRADIENT },
+    };
     const hc_field field = field_of("fbm", 33, 21, HC_WRAP_U);
     (void)state;
     skip_without_gpu();
     for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
         for (int by = 0; by < 2; by++) {
-            hc_map_options options = rows[i].options;
+            hc_map_options options = rows[i];
             hc_map         map     = { .texels = texels[by] };
             options.baker          = by == 1 ? hc_gpu_map_baker(gpu) : NULL;
             assert_int_equal(hc_map_info_for(&map.info, &field, &options, NULL), HC_OK);
