@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Bake real elevations and a made texture in all layouts, verify them, draw them, cast rays at them, fly
-# over them and walk on them; into out/demo.
+# Bake real elevations and a made texture in all layouts, verify them, draw them, cast rays at them,
+# fly over them and walk on them; into out/demo.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 program=build/heightcast
@@ -126,4 +126,5 @@ lost: hits behind the surface, or none; too early: before it, or where nothing i
 maxmip may do neither; the others are given a fifth of a sample and 1/256 of the height.
 Pictures, made in $((SECONDS - start)) s:
 END
-ls $out/terrain_*.png $out/*view.png $out/*height_and_ratio.png $out/*quadrants.png $out/*quick_improved.png
+ls $out/terrain_*.png $out/*view.png $out/*height_and_ratio.png $out/*quadrants.png \
+    $out/*quick_improved.png

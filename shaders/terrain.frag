@@ -384,9 +384,9 @@ float map_light(vec3 point, float facing)
     at          = at / u_map_texel - 0.5;
     ivec2 cell  = ivec2(floor(at));
     vec2  f     = at - vec2(cell);
-    vec4  open_ = vec4(lessThanEqual(vec4(depth), vec4(map_depth(cell), map_depth(cell + ivec2(1, 0)),
-                                                     map_depth(cell + ivec2(0, 1)),
-                                                     map_depth(cell + 1))));
+    vec4  held  = vec4(map_depth(cell), map_depth(cell + ivec2(1, 0)),
+                       map_depth(cell + ivec2(0, 1)), map_depth(cell + 1));
+    vec4  open_ = vec4(lessThanEqual(vec4(depth), held));
     return mix(mix(open_.x, open_.y, f.x), mix(open_.z, open_.w, f.x), f.y);
 }
 
@@ -472,7 +472,8 @@ void main(void)
     vec3   normal    = seen ? normal_at(hit, along) : vec3(0.0);
     vec3   colour    = sky_colour(direction);
     if (seen) {
-        colour = see_ground(hit, normal, direction, shift + hit.t * direction, u_haze_top - shift.z);
+        vec3 from_eye = shift + hit.t * direction;
+        colour        = see_ground(hit, normal, direction, from_eye, u_haze_top - shift.z);
     }
     o_light      = vec4(colour, hit.t);
     o_normal     = vec4(normal, hit.place.z);

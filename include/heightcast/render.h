@@ -95,8 +95,8 @@ typedef struct hc_scene {
     hc_camera   camera;
 } hc_scene;
 
-/* Of terrain (terrain.h) there are shaded, height, normal, depth, missed and crossings; of relief all
- * but crossings.
+/* Of terrain (terrain.h) there are shaded, height, normal, depth, missed and crossings; of relief
+ * all but crossings.
  * shaded       as described, before a dark background
  * height       of the hit, black to white
  * normal       of the surface in the world, xyz as rgb, 0 in the middle

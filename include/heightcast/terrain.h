@@ -80,9 +80,9 @@ typedef struct hc_terrain_scene {
 
     double sun[3]; /* direction to it, any length. All zero: -0.75 0.5 0.36 */
     bool   no_shadows;
-    /* Side in texels  [0 .. 16384] of a map of what the sun sees, from which shadows are read instead
-     * of cast: soft by a texel, and coarse where that is large. Takes 4 bytes a texel. 0: they are
-     * cast, exactly. */
+    /* Side in texels  [0 .. 16384] of a map of what the sun sees, from which shadows are read
+     * instead of cast: soft by a texel, and coarse where that is large. Takes 4 bytes a texel. 0:
+     * they are cast, exactly. */
     int shadow_map;
     /* Distance in the air over the terrain that leaves about 1 / e of the light  [> 0]  0: 2.2
      * times the longer side; INFINITY: clear air. */
@@ -96,8 +96,8 @@ typedef struct hc_terrain hc_terrain;
  * options  view: shaded, height, normal, depth, crossings or missed; top does not count. NULL or
  *          zero: shaded, by the CPU
  *
- * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render, and
- * HC_ERROR_UNSUPPORTED for steps and open sides. */
+ * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render,
+ * and HC_ERROR_UNSUPPORTED for steps and open sides. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);
@@ -105,11 +105,11 @@ HC_API void      hc_terrain_destroy(hc_terrain *terrain);
 /* Draw what `camera` sees. Zero eye and target: hc_terrain_tour's fly at 0; fov 0: 60.
  *
  * The CPU gives the same bytes on every machine and for every number of threads, and draws for many
- * callers at once. GL agrees with it but for rounding in float32 (docs/algorithms.md, section 22.8);
- * the caller's thread has another context current afterwards, and a terrain draws for one caller at
- * a time. An eye under the ground sees
- * only that. picture->figures: `entered` counts rays that come to the field's box, `within` those of
- * them that moved at most 16, 35 and 85 times from node to node (steps, with methods that do not
+ * callers at once. GL agrees with it but for rounding in float32 (docs/algorithms.md, section
+ * 22.8); the caller's thread has another context current afterwards, and a terrain draws for one
+ * caller at a time. An eye under the ground sees
+ * only that. picture->figures: `entered` counts rays that come to the field's box, `within` those
+ * of them that moved at most 16, 35 and 85 times from node to node (steps, with methods that do not
  * tell).
  *
  * Memory: 92 bytes per pixel, a megabyte per thread. Errors: HC_ERROR_ARGUMENT for

@@ -1,5 +1,5 @@
-/* shaders/terrain.frag against the CPU: every method from the air, the ground, a valley and outside,
- * shadows and all; skipped where there is no OpenGL. */
+/* shaders/terrain.frag against the CPU: every method from the air, the ground, a valley and
+ * outside, shadows and all; skipped where there is no OpenGL. */
 #include <heightcast/bake.h>
 #include <heightcast/terrain.h>
 
@@ -14,8 +14,8 @@
 
 enum { SIDE = 48, WIDE = 96, HIGH = 64, PIXELS = WIDE * HIGH };
 
-/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of a ridge, of a shadow, of
- * a wall, between steps of a march), where float32 and double decide differently. */
+/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of a ridge, of a shadow,
+ * of a wall, between steps of a march), where float32 and double decide differently. */
 enum { ODD_MAX = PIXELS / 1000, CODES_MAX = 2 };
 
 static float heights[SIDE * SIDE], l2[SIDE * SIDE], relaxed[SIDE * SIDE];

@@ -114,10 +114,13 @@ static void level_tiles_lie_where_they_should(void **state)
     (void)state;
     static const float flat[4] = { 0 }; /* a constant field becomes 0 */
     const hc_tiling    tiling  = { 2, 1, HC_SEAMS_APART };
-    hc_field           tiles[] = {
-                  { .heights = flat, .width = 2, .height = 2, .elevation = { .low = 5, .high = 5 } },
-                  { .heights = flat, .width = 2, .height = 2, .elevation = { .low = 9, .high = 9 } }
-    };
+    hc_field           tiles[2];
+    for (int i = 0; i < 2; i++) {
+        const double z = i == 0 ? 5.0 : 9.0;
+        tiles[i]       = (hc_field){
+                  .heights = flat, .width = 2, .height = 2, .elevation = { .low = z, .high = z }
+        };
+    }
     hc_field joined;
     assert_int_equal(hc_join_fields(back, &joined, &tiling, tiles, NULL), HC_OK);
     assert_true(back[0] == 0.0F && back[2] == 1.0F);

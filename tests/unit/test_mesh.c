@@ -89,7 +89,8 @@ static void files_are_read_as_they_are_written(void **state)
     (void)state;
     hc_log   log  = { .text = "" };
     hc_mesh *mesh = NULL;
-    /* Comments, groups, normals, windows' lines, four corners, negative indices, no last newline. */
+    /* Comments, groups, normals, windows' lines, four corners, negative indices, no last
+     * newline. */
     const char *text = "# a roof\r\nmtllib x.mtl\no roof\nv 0 0 0\nv 1 0 0 1.0\n\tv 1 1 0.5\n"
                        "v  0 1 5e-1 # last\nvn 0 0 1\nvt 0 0\ng a\nusemtl b\ns off\n"
                        "f 1/1/1 2//1 3/1 4\r\nl 1 2\nf -4 -2 -1";

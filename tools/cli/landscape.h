@@ -14,8 +14,8 @@ typedef struct hc_cli_landscape {
     hc_cli_objects   objects;
 } hc_cli_landscape;
 
-/* Load the file or the tiles, bake and choose. Returns the exit code. hc_cli_landscape_free must follow, whatever it
- * is. */
+/* Load the file or the tiles, bake and choose. Returns the exit code. hc_cli_landscape_free must
+ * follow, whatever it is. */
 int  hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli);
 void hc_cli_landscape_free(hc_cli_landscape *landscape);
 

@@ -138,10 +138,11 @@ void hc_cli_route_camera(hc_camera *camera, const hc_cli_route *route, const hc_
 
 bool hc_cli_frame_name(char *name, size_t size, const hc_cli *cli, const char *path, int frame)
 {
-    const char *dot    = strrchr(path, '.');
-    const int   length = dot != NULL ? (int)(dot - path) : (int)strlen(path);
-    const int   wrote  = cli->settings.terrain.frames == 0
-                             ? snprintf(name, size, "%s", path)
-                             : snprintf(name, size, "%.*s_%04d%s", length, path, frame, path + length);
+    const char *dot   = strrchr(path, '.');
+    const char *rest  = dot != NULL ? dot : path + strlen(path);
+    const int   stem  = (int)(rest - path);
+    const bool  many  = cli->settings.terrain.frames > 0;
+    const int   wrote = many ? snprintf(name, size, "%.*s_%04d%s", stem, path, frame, rest)
+                             : snprintf(name, size, "%s", path);
     return wrote >= 0 && (size_t)wrote < size;
 }

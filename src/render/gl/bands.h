@@ -12,8 +12,8 @@
 
 enum { HC_GL_PLANES = 3 };
 
-/* Triangles that are drawn first, in the depth buffer of what comes behind; bodies.vert's u_window is
- * set for each band. The shaders' depths are larger the nearer, and 0 where there is nothing. */
+/* Triangles that are drawn first, in the depth buffer of what comes behind; bodies.vert's u_window
+ * is set for each band. The shaders' depths are larger the nearer, and 0 where there is nothing. */
 typedef struct hc_gl_bodies {
     unsigned program, array; /* array: of vertices */
     int      count;          /* of vertices; 0: there are none */

@@ -33,8 +33,8 @@ int hc_gl_method(hc_trace_method method);
 /* What stands before both shaders. */
 void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones);
 
-/* The vertex shader `before`, and the fragment shader `name` behind heightcast.glsl, with `head` before
- * both. */
+/* The vertex shader `before`, and the fragment shader `name` behind heightcast.glsl, with `head`
+ * before both. */
 hc_result hc_upload_program(unsigned *program, const char *head, const char *before,
                             const char *name, hc_log *log);
 

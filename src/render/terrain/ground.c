@@ -109,8 +109,9 @@ static void natural(double rgb[3], double normal[3], const hc_terrain *terrain, 
 {
     const hc_terrain_scene *scene  = &terrain->scene;
     const double            spaced = fmin(scene->spacing[0], scene->spacing[1]);
-    const wave              grain  = speckle((double)hit->u / hc_field_step_u(&scene->field),
-                                             (double)hit->v / hc_field_step_v(&scene->field), footprint / spaced);
+    const double            x      = (double)hit->u / hc_field_step_u(&scene->field);
+    const double            y      = (double)hit->v / hc_field_step_v(&scene->field);
+    const wave              grain  = speckle(x, y, footprint / spaced);
     const double            bare =
         fmin(fmax((steepness(normal) + 0.22 * grain.value - 0.55) / 0.35, 0.0), 1.0);
     along_stops(rgb, natural_stops, 6, (double)hit->height + 0.14 * grain.value);

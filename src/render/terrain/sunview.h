@@ -23,8 +23,8 @@ hc_result hc_sunview_make(hc_sunview *view, const struct hc_terrain *terrain, in
                           hc_log *log);
 void      hc_sunview_free(hc_sunview *view);
 
-/* Share of the sun's light that comes to a place, counted from the terrain's low corner, on a surface
- * whose normal has this cosine to the sun: the four texels around it, weighed. */
+/* Share of the sun's light that comes to a place, counted from the terrain's low corner, on a
+ * surface whose normal has this cosine to the sun: the four texels around it, weighed. */
 double hc_sunview_light(const hc_sunview *view, const double sun[3], const double place[3],
                         double facing);
 
