@@ -261,14 +261,18 @@ static void enqueue_new(job *j)
         return;
     }
     runners        made;
+    const bool     any         = j->answer.any != NULL && !j->fast->sparse;
     const unsigned long_enough = turn_batch(j->fast, &b, &made) & all;
+    const unsigned sure        = any ? probe(j->fast, &made, long_enough) : 0;
+    const unsigned marched     = long_enough & ~sure;
+    answer_any(j, which, sure);
     memcpy(made.which, which, sizeof which);
     for (int k = 0; k < RUNNER_WORDS; k++) {
-        hc_pack_words((char *)&j->queue + k * (int)sizeof which, long_enough,
+        hc_pack_words((char *)&j->queue + k * (int)sizeof which, marched,
                       (const char *)&made + k * (int)sizeof which);
     }
-    hc_pack_doubles(j->queue_from, long_enough, b.from);
-    j->queued = __builtin_popcount(long_enough);
+    hc_pack_doubles(j->queue_from, marched, b.from);
+    j->queued = __builtin_popcount(marched);
     if (long_enough != all) {
         enqueue_one_by_one(j, &b, which, all & ~long_enough);
     }

@@ -224,6 +224,34 @@ static inline hc_v gap_at(const corners *h, hc_v x, hc_v y, hc_v z)
     return hc_v_sub(z, hc_v_about_muladd(y, hc_v_sub(lower, upper), upper));
 }
 
+/* How far above the patches rays are at s, but for what fast->slack allows. */
+static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
+{
+    const hc_v    x = hc_v_about_muladd(s, hc_v_load(ray->dx), hc_v_load(ray->x));
+    const hc_v    y = hc_v_about_muladd(s, hc_v_load(ray->dy), hc_v_load(ray->y));
+    const hc_v    z = hc_v_about_muladd(s, hc_v_load(ray->dz), hc_v_load(ray->z));
+    const hc_i    i = hc_i_max(hc_i_min(hc_i_from_v(x), hc_i_set(fast->x.cells - 1)), hc_i_set(0));
+    const hc_i    j = hc_i_max(hc_i_min(hc_i_from_v(y), hc_i_set(fast->y.cells - 1)), hc_i_set(0));
+    const corners h = find_corners(fast, i, j, lanes);
+    return gap_at(&h, hc_v_sub(x, hc_v_from_i(i)), hc_v_sub(y, hc_v_from_i(j)), z);
+}
+
+/* Rays that are certainly below the surface somewhere on their way, and so have hit it. The middle
+ * first, then what it leaves out; finer if that finds something. */
+static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
+{
+    enum { PROBES = 7, COARSE = 3 };
+    static const float parts[PROBES] = { 0.5F, 0.25F, 0.75F, 0.125F, 0.375F, 0.625F, 0.875F };
+    const hc_v         slack         = hc_v_set(-fast->slack);
+    const hc_v         way           = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
+    unsigned           below         = 0;
+    for (int k = 0; k < PROBES && below != lanes && (k < COARSE || below != 0); k++) {
+        const hc_v gap = gap_after(fast, ray, hc_v_mul(way, hc_v_set(parts[k])), lanes & ~below);
+        below |= hc_v_greater(slack, gap) & lanes;
+    }
+    return below;
+}
+
 /* What looking at the patches under lanes has shown. */
 typedef struct sight {
     float    span[HC_LANES]; /* s until the cell is left                                   */
