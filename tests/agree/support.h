@@ -12,8 +12,8 @@
 
 #include <cmocka.h>
 
-/* Tests of many fields take only every so manieth where a sanitizer makes them a dozen times slower:
- * what it looks for is found on few. Has no common factors with the kinds and modes of fields. */
+/* Tests of many fields take one of so many where a sanitizer makes them a dozen times slower: what
+ * it looks for is found on few. Has no common factors with the kinds and modes of fields. */
 #if defined(__has_feature)
 #define AGREE_CLANG_SANITIZES (__has_feature(address_sanitizer) || __has_feature(thread_sanitizer))
 #else

@@ -114,8 +114,8 @@ class Bench(Case):
 
     def test_rays(self):
         table = self.text("bench", "trace", "--sizes", "24", "--field", f"fbm,{ELEVATIONS}",
-                          "--methods", "fast", "--rays", 30000, "--repeat", "1", "--csv", "rays.csv",
-                          "--json", "rays.json")
+                          "--methods", "fast", "--rays", 30000, "--repeat", 1,
+                          "--csv", "rays.csv", "--json", "rays.json")
         rows = json.loads(self.path("rays.json").read_text())["rows"]
         self.assertEqual({row["field"] for row in rows}, {"fbm", ELEVATIONS.name})
         self.assertEqual({row["rays"] for row in rows},
@@ -131,8 +131,8 @@ class Bench(Case):
         self.assertNotIn("nan", table)
 
     def steps(self, *options):
-        return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", "--rays", 4000, *options,
-                                    "--json"))
+        return json.loads(self.text("bench", "steps", "--sizes", "8,16,32", "--rays", 4000,
+                                    *options, "--json"))
 
     def test_render(self):
         report = json.loads(self.text("bench", "render", "--sizes", 32, "--size", "48x32",

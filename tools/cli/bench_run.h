@@ -1,5 +1,5 @@
-/* `bench trace`, `bench steps` and `bench render`: what they measure differs, how it is asked for and
- * reported does not. */
+/* `bench trace`, `bench steps` and `bench render`: what they measure differs, but not how it is
+ * asked for and reported. */
 #ifndef HC_CLI_BENCH_RUN_H
 #define HC_CLI_BENCH_RUN_H
 

@@ -25,8 +25,8 @@ typedef struct hc_cli_grounds {
     hc_field        tiles[HC_CLI_LIST_MAX];
 } hc_cli_grounds;
 
-/* Fields are names of made ones, or files: what has a dot. Their heights fill 0 to 1, as those of made
- * ones do. hc_cli_free_grounds must follow, whatever the exit code is. */
+/* Fields are names of made ones, or files: what has a dot. Their heights fill 0 to 1, as those of
+ * made ones do. hc_cli_free_grounds must follow, whatever the exit code is. */
 int hc_cli_read_grounds(hc_cli *cli, hc_cli_grounds *grounds, const char *fields, const char *sides,
                         hc_cli_words *methods);
 void hc_cli_free_grounds(hc_cli_grounds *grounds);

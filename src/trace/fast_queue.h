@@ -1,0 +1,277 @@
+/* The work of one call: the rays and their answers, those that are ready for lanes, and the lanes.
+ *
+ * A ray that is to be marched on from some t, for whatever reason, is one of those that are left. */
+#ifndef HC_TRACE_FAST_QUEUE_H
+#define HC_TRACE_FAST_QUEUE_H
+
+#include "fast_decide.h"
+#include "fast_march.h"
+
+#include <math.h>
+
+/* Packs take turns, so that one computes while the others wait for memory. */
+enum { ALL_LANES = 0xffff, PACKS = 4, LEFT_MAX = (PACKS + 4) * HC_LANES };
+
+/* Rays that go less far, in cells, are walked at once: vertical ones above all. */
+static const double MARCH_FROM = 2.0;
+
+/* Rays to be marched on from t. */
+typedef struct leftover {
+    int32_t which;
+    int32_t steps, crossings;
+    double  t;
+} leftover;
+
+typedef struct job {
+    const hc_fast *fast;
+    hc_fast_answer answer;
+    const hc_ray  *rays;
+    int32_t        count, taken;
+    bool           plain; /* one period, closed sides, patches: nothing to see to on the way */
+    runners        queue; /* rays ready for lanes */
+    double         queue_from[2 * HC_LANES], queue_next[2 * HC_LANES];
+    int            queued, next;
+    trials         trials;
+    leftover       left[LEFT_MAX];
+    int            left_count;
+    pack           packs[PACKS];
+} job;
+
+/* ---- answers --------------------------------------------------------------------------------- */
+
+static void answer_miss(const job *j, int32_t which, int32_t steps, int32_t crossings)
+{
+    if (j->answer.any != NULL) {
+        j->answer.any[which] = 0;
+        return;
+    }
+    j->answer.hits[which] =
+        (hc_hit){ .t = INFINITY, .steps = (uint32_t)steps, .crossings = (uint32_t)crossings };
+}
+
+/* Of those in question, that something is hit. */
+static void answer_any(const job *j, const int32_t *which, unsigned hits)
+{
+    for (; hits != 0; hits &= hits - 1) {
+        j->answer.any[which[__builtin_ctz(hits)]] = 1;
+    }
+}
+
+static void answer_hit(const job *j, int32_t which, const hc_fast_ray *r,
+                       const hc_fast_found *found, int32_t steps, int32_t crossings)
+{
+    if (j->answer.any != NULL) {
+        j->answer.any[which] = 1;
+        return;
+    }
+    hc_hit *hit    = &j->answer.hits[which];
+    *hit           = (hc_hit){ .t = INFINITY };
+    hit->steps     = (uint32_t)steps;
+    hit->crossings = (uint32_t)crossings;
+    hc_fast_fill(j->fast, hit, r, found);
+}
+
+/* ---- rays into the queue --------------------------------------------------------------------- */
+
+/* Start of the period that holds the ray at t, and the time at which it leaves it. */
+static double leave_period(const hc_fast_ray *r, int axis, const hc_fast_axis *a, double t,
+                           double *start)
+{
+    *start = 0.0;
+    if (!a->wrapped || r->direction[axis] == 0.0) {
+        if (a->wrapped) {
+            *start = a->cells * floor(r->origin[axis] / a->cells);
+        }
+        return INFINITY;
+    }
+    const double sign  = r->direction[axis] > 0.0 ? 1.0 : -1.0;
+    double       first = a->cells * floor((r->origin[axis] + t * r->direction[axis]) / a->cells);
+    double       leave;
+    do { /* a ray that stands on the seam is already beyond it */
+        const double wall = sign > 0.0 ? first + a->cells : first;
+        leave             = (wall - r->origin[axis]) * r->inverse[axis];
+        *start            = first;
+        first += sign * a->cells;
+    } while (leave <= t);
+    return leave;
+}
+
+/* A ray along one axis as a lane has it. */
+typedef struct lane_axis {
+    float   at, rate, over;
+    int32_t ahead;
+} lane_axis;
+
+static inline lane_axis turn_axis(double origin, double direction, double t, double start,
+                                  double scale)
+{
+    const float rate = (float)(direction * scale);
+    const bool  up   = !(direction < 0.0);
+    const float most = up ? 0x1p60F : -0x1p60F;
+    return (lane_axis){ .at    = (float)(origin + t * direction - start),
+                        .rate  = rate,
+                        .over  = fabsf(rate) > 0x1p-60F ? 1.0F / rate : most,
+                        .ahead = up };
+}
+
+static inline int32_t shift_to_quadrant(int32_t ahead_x, int32_t ahead_y)
+{
+    return 8 * (1 - ahead_x) + 16 * (1 - ahead_y);
+}
+
+/* A segment from t to `next`, in cells from `start`, at place k of the queue. */
+static void enqueue_segment(job *j, int k, const hc_fast_ray *r, const double start[2], double t,
+                            double next)
+{
+    runners        *q     = &j->queue;
+    const double    run   = hc_fast_run(r);
+    const double    scale = 1.0 / run;
+    const lane_axis x     = turn_axis(r->origin[0], r->direction[0], t, start[0], scale);
+    const lane_axis y     = turn_axis(r->origin[1], r->direction[1], t, start[1], scale);
+    q->x[k]               = x.at;
+    q->y[k]               = y.at;
+    q->dx[k]              = x.rate;
+    q->dy[k]              = y.rate;
+    q->rx[k]              = x.over;
+    q->ry[k]              = y.over;
+    q->ahead_x[k]         = x.ahead;
+    q->ahead_y[k]         = y.ahead;
+    q->quadrant[k]        = shift_to_quadrant(x.ahead, y.ahead);
+    q->z[k]               = (float)(r->origin[2] + t * r->direction[2]);
+    q->dz[k]              = (float)(r->direction[2] * scale);
+    q->end[k]             = (float)((next - t) * run) + 2.0F * j->fast->blur;
+    j->queue_from[k]      = t;
+    j->queue_next[k]      = next;
+}
+
+/* Segments from t on until one is to be marched, which is enqueued. */
+static void go_on(job *j, const hc_fast_ray *r, double t, const leftover *from)
+{
+    const double run = hc_fast_run(r);
+    do {
+        double        start[2];
+        hc_fast_found found;
+        const double  leave_x = leave_period(r, 0, &j->fast->x, t, &start[0]);
+        const double  leave_y = leave_period(r, 1, &j->fast->y, t, &start[1]);
+        const double  next    = fmin(r->to, fmin(leave_x, leave_y));
+        if ((next - t) * run >= MARCH_FROM) {
+            const int k           = j->queued++;
+            j->queue.which[k]     = from->which;
+            j->queue.steps[k]     = from->steps;
+            j->queue.crossings[k] = from->crossings;
+            enqueue_segment(j, k, r, start, t, next);
+            return;
+        }
+        if (hc_fast_walk(j->fast, r, &found, t, next)) {
+            answer_hit(j, from->which, r, &found, from->steps, from->crossings);
+            return;
+        }
+        t = next;
+    } while (t < r->to);
+    answer_miss(j, from->which, from->steps, from->crossings);
+}
+
+/* Rays that are left, one by one. */
+static void enqueue_left(job *j)
+{
+    int32_t   which[HC_LANES];
+    batch     b;
+    const int count = j->left_count < HC_LANES ? j->left_count : HC_LANES;
+    j->left_count -= count;
+    const leftover *left = j->left + j->left_count;
+    for (int i = 0; i < HC_LANES; i++) {
+        which[i] = left[i < count ? i : 0].which;
+    }
+    prepare(&b, j->fast, j->rays, which);
+    for (int i = 0; i < count; i++) {
+        hc_fast_ray r;
+        (void)take_ray(&r, j->fast, &b, i, &j->rays[which[i]]);
+        go_on(j, &r, left[i].t, &left[i]);
+    }
+}
+
+/* New rays that need care: periods, open sides. */
+static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, unsigned lanes)
+{
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int      i    = __builtin_ctz(lanes);
+        const leftover from = { .which = which[i] };
+        hc_fast_ray    r;
+        switch (take_ray(&r, j->fast, b, i, &j->rays[which[i]])) {
+        case HC_FAST_MISSES: answer_miss(j, which[i], 0, 0); break;
+        case HC_FAST_HITS: answer_hit(j, which[i], &r, &r.at_once, 0, 0); break;
+        case HC_FAST_MARCHES: go_on(j, &r, r.from, &from); break;
+        }
+    }
+}
+
+/* A batch in the lanes' coordinates. Returns those that are to be marched. */
+static unsigned turn_batch(const hc_fast *fast, const batch *b, runners *q)
+{
+    float *const   at[2]    = { q->x, q->y };
+    float *const   rate[2]  = { q->dx, q->dy };
+    float *const   over[2]  = { q->rx, q->ry };
+    int32_t *const ahead[2] = { q->ahead_x, q->ahead_y };
+    double         scale[HC_LANES];
+    float          good[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        const double way = (b->to[i] - b->from[i]) * b->run[i];
+        scale[i]         = 1.0 / b->run[i];
+        q->end[i]        = (float)way + 2.0F * fast->blur;
+        good[i]          = ((b->meets[i] != 0) & (way >= MARCH_FROM)) ? 1.0F : 0.0F;
+    }
+    for (int k = 0; k < 2; k++) {
+        for (int i = 0; i < HC_LANES; i++) {
+            const lane_axis a =
+                turn_axis(b->origin[k][i], b->direction[k][i], b->from[i], 0.0, scale[i]);
+            at[k][i]    = a.at;
+            rate[k][i]  = a.rate;
+            over[k][i]  = a.over;
+            ahead[k][i] = a.ahead;
+        }
+    }
+    for (int i = 0; i < HC_LANES; i++) {
+        q->quadrant[i]  = shift_to_quadrant(q->ahead_x[i], q->ahead_y[i]);
+        q->z[i]         = (float)(b->origin[2][i] + b->from[i] * b->direction[2][i]);
+        q->dz[i]        = (float)(b->direction[2][i] * scale[i]);
+        q->steps[i]     = 0;
+        q->crossings[i] = 0;
+    }
+    return hc_v_greater(hc_v_load(good), hc_v_set(0.0F));
+}
+
+static void enqueue_new(job *j)
+{
+    int32_t        which[HC_LANES];
+    batch          b;
+    const int      left  = j->count - j->taken;
+    const int      count = left < HC_LANES ? left : HC_LANES;
+    const unsigned all   = ALL_LANES >> (HC_LANES - count);
+    for (int i = 0; i < HC_LANES; i++) {
+        which[i] = j->taken + (i < count ? i : 0);
+    }
+    j->taken += count;
+    prepare(&b, j->fast, j->rays, which);
+    if (!j->plain) {
+        enqueue_one_by_one(j, &b, which, all);
+        return;
+    }
+    runners        made;
+    const bool     any         = j->answer.any != NULL && !j->fast->sparse;
+    const unsigned long_enough = turn_batch(j->fast, &b, &made) & all;
+    const unsigned sure        = any ? probe(j->fast, &made, long_enough) : 0;
+    const unsigned marched     = long_enough & ~sure;
+    answer_any(j, which, sure);
+    memcpy(made.which, which, sizeof which);
+    for (int k = 0; k < RUNNER_WORDS; k++) {
+        hc_pack_words((char *)&j->queue + k * (int)sizeof which, marched,
+                      (const char *)&made + k * (int)sizeof which);
+    }
+    hc_pack_doubles(j->queue_from, marched, b.from);
+    j->queued = __builtin_popcount(marched);
+    if (long_enough != all) {
+        enqueue_one_by_one(j, &b, which, all & ~long_enough);
+    }
+}
+
+#endif
