@@ -159,6 +159,46 @@ class Bench(Case):
             self.assertEqual(len(list(csv.DictReader(file))), len(rows))
         self.refused("bench", "render", "--methods", "safe", code=USAGE, says="--methods")
 
+    def terrain(self, *options):
+        return json.loads(self.text("bench", "terrain", "--size", "40x24", "--repeat", 1, *options,
+                                    "--json"))
+
+    def test_terrain(self):
+        report = self.terrain("--sizes", "32,64", "--csv", "terrain.csv")
+        rows = {(row["side"], row["method"]): row for row in report["rows"]}
+        self.assertEqual(set(rows), {(side, method) for side in (32, 64)
+                                     for method in ("fast", "maxmip", "safe", "cone-loop")})
+        for (side, method), row in rows.items():
+            self.assertEqual((row["runs"], row["frames"]), (1, 5))
+            self.assertGreater(row["seconds"], 0)
+            # Heights; safe has four ratios besides, cone-loop one.
+            self.assertGreaterEqual(row["bytes"], side**2 * {"safe": 20, "cone-loop": 8}.get(
+                method, 4))
+            for tour in (row["fly"], row["walk"]):
+                self.assertGreater(tour["frames_per_second"], 0)
+                self.assertGreater(tour["mean_crossings"], 0)
+                if method != "cone-loop":
+                    self.assertEqual((tour["lost"], tour["made_up"]), (0, 0))
+        self.assertGreater(rows[64, "cone-loop"]["walk"]["lost"]
+                           + rows[64, "cone-loop"]["walk"]["made_up"], 0)
+        for figure, row in zip(report["figures"], report["rows"]):
+            other = rows[row["side"], "maxmip"]["fly"]["frames_per_second"]
+            self.assertAlmostEqual(figure["over_maxmip"]["fly"],
+                                   other / row["fly"]["frames_per_second"])
+            smallest = rows[32, row["method"]]["walk"]["frames_per_second"]
+            self.assertAlmostEqual(figure["growth"]["walk"],
+                                   smallest / row["walk"]["frames_per_second"])
+        with open(self.path("terrain.csv"), newline="") as file:
+            lines = list(csv.DictReader(file))
+        self.assertEqual([float(line["bytes"]) for line in lines],
+                         [row["bytes"] for row in report["rows"]])
+
+    def test_terrain_of_a_file(self):
+        row, = self.terrain("--field", ELEVATIONS, "--sizes", 48, "--methods", "linear")["rows"]
+        self.assertEqual((row["field"], row["side"], row["method"]),
+                         (ELEVATIONS.name, 48, "linear"))
+        self.assertGreater(row["fly"]["lost"] + row["walk"]["lost"], 0)
+
     def test_steps(self):
         report = self.steps("--field", "fbm,spikes", "-j", 1, "--csv", "steps.csv")
         rows = {(r["field"], r["side"], r["rays"], r["method"]): r for r in report["rows"]}
@@ -192,7 +232,9 @@ class Bench(Case):
 
     def test_usage(self):
         self.refused("bench", "steps", "--methods", "fast,linear", code=USAGE, says="maxmip")
-        self.refused("bench", "terrain", code=USAGE, says="'terrain'")
+        self.refused("bench", "sky", code=USAGE, says="'sky'")
+        self.refused("bench", "terrain", "--methods", "fsat", code=USAGE, says="'fast'")
+        self.refused("bench", "terrain", "--rays", 9, code=USAGE, says="bench steps")
         self.refused("bench", "bake", "--rays", 9, code=USAGE, says="bench steps")
         self.refused("bench", "steps", "--rays", 0, code=USAGE, says="100000000")
         self.refused("bench", "trace", "--backend", "gl", code=USAGE, says="--backend")

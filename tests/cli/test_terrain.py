@@ -83,8 +83,9 @@ class Terrain(Case):
         plain = self.picture("--spacing", "20")
         for option in [["--exaggeration", "2"], ["--elevation", "0:90"], ["--spacing", "20,30"],
                        ["--colours", "elevation"], ["--colours", "slope"], ["--colours", "plain"],
-                       ["--blocky"], ["--light", "1,0,0.2"], ["--shadows", "off"], ["--shadow-map", "40"],
-                       ["--haze", "50"], ["--tour", "walk"], ["--tour", "up"], ["--tour", "orbit"],
+                       ["--blocky"], ["--light", "1,0,0.2"], ["--shadows", "off"],
+                       ["--shadow-map", "40"], ["--haze", "50"], ["--tour", "walk"],
+                       ["--tour", "up"], ["--tour", "orbit"],
                        ["--moment", "0.3"], ["--above", "400"], ["--fov", "40"],
                        ["--surface", "steps"], ["--at", "0,0,0"], ["--eye", "5,-400,300"],
                        ["--samples", "3"], ["--invert"], ["--range", "0:500"]]:
@@ -194,7 +195,8 @@ class Terrain(Case):
         tiles = self.cut("t", 2, 2, 0)
         out = ["--out", "a.png"]
         self.refused("render", "terrain", *tiles[:3], *out, code=USAGE, says="--tiles CxR")
-        self.refused("render", "terrain", *tiles, "--tiles", "3x1", *out, code=USAGE, says="3 files")
+        self.refused("render", "terrain", *tiles, "--tiles", "3x1", *out, code=USAGE,
+                     says="3 files")
         self.refused("render", "terrain", *tiles, "--seams", "shared", *out, code=BAD_FILE,
                      says=["should share an edge", "east"])
         self.hills()
@@ -253,7 +255,8 @@ class Terrain(Case):
     def test_holes_are_as_in_other_commands(self):
         self.run_program("gen", "fbm", "a.npy", "--size", "16x16")
         self.patch_npy("a.npy", 40, float("nan"))
-        self.refused("render", "terrain", "a.npy", "--out", "a.png", code=BAD_FILE, says="no height")
+        self.refused("render", "terrain", "a.npy", "--out", "a.png", code=BAD_FILE,
+                     says="no height")
         self.render("--holes", "fill", field="a.npy")
 
     def test_what_makes_no_sense(self):

@@ -1,4 +1,4 @@
-/* `bench trace`, `bench steps` and `bench render`: what they measure differs, but not how it is
+/* `bench trace`, `steps`, `render` and `terrain`: what they measure differs, but not how it is
  * asked for and reported. */
 #ifndef HC_CLI_BENCH_RUN_H
 #define HC_CLI_BENCH_RUN_H
@@ -38,6 +38,7 @@ void hc_cli_run_flush(const hc_cli_run *run);
 int hc_cli_run_bench_trace(hc_cli *cli);
 int hc_cli_run_bench_steps(hc_cli *cli);
 int hc_cli_run_bench_render(hc_cli *cli);
+int hc_cli_run_bench_terrain(hc_cli *cli);
 
 /* `stop` of the measurements. */
 bool hc_cli_run_stopped(void);

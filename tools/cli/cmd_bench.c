@@ -89,21 +89,24 @@ static int check_arguments(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
     if (!asks_for(cli, "bake") && !asks_for(cli, "trace") && !asks_for(cli, "steps")
-        && !asks_for(cli, "render")) {
+        && !asks_for(cli, "render") && !asks_for(cli, "terrain")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
-                           "nothing to measure is called '%s'; bake, trace, steps and render are",
+                           "nothing to measure is called '%s'; bake, trace, steps, render and "
+                           "terrain are",
                            settings->paths[0]);
     }
-    if (!asks_for(cli, "render") && hc_cli_given(settings, "size")) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--size is for bench render; leave it out");
+    const bool draws = asks_for(cli, "render") || asks_for(cli, "terrain");
+    if (!draws && hc_cli_given(settings, "size")) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "--size is for bench render and bench terrain; leave it out");
     }
     if (!asks_for(cli, "trace") && !asks_for(cli, "steps") && hc_cli_given(settings, "rays")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--rays is for bench trace and bench steps; leave it out");
     }
-    if (!asks_for(cli, "render") && !asks_for(cli, "bake") && hc_cli_given(settings, "backend")) {
+    if (!draws && !asks_for(cli, "bake") && hc_cli_given(settings, "backend")) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
-                           "--backend is for bench bake and bench render; leave it out");
+                           "--backend is for bench bake, render and terrain; leave it out");
     }
     if (settings->either) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
@@ -191,9 +194,10 @@ int hc_cli_run_bench(hc_cli *cli)
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
     int code           = check_arguments(cli);
     if (code == HC_CLI_DONE && !asks_for(cli, "bake")) {
-        return asks_for(cli, "trace")   ? hc_cli_run_bench_trace(cli)
-               : asks_for(cli, "steps") ? hc_cli_run_bench_steps(cli)
-                                        : hc_cli_run_bench_render(cli);
+        return asks_for(cli, "trace")    ? hc_cli_run_bench_trace(cli)
+               : asks_for(cli, "steps")  ? hc_cli_run_bench_steps(cli)
+               : asks_for(cli, "render") ? hc_cli_run_bench_render(cli)
+                                         : hc_cli_run_bench_terrain(cli);
     }
     code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
     return code == HC_CLI_DONE ? bench_bake(cli, &lists) : code;

@@ -410,7 +410,7 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "N,...",
       .allowed  = "sides from 1 to 1048576, separated by commas",
       .help = "Sides of the square fields (default 512,4096; trace: 1024; steps: 64,128,256,512,"
-              "1024; render: 512)." },
+              "1024; render: 512; terrain: 256,512,1024,2048,4096)." },
     { .name     = "field",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -418,9 +418,8 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(fields),
       .metavar  = "NAME,...",
       .allowed  = "names that 'heightcast gen --list' shows, separated by commas",
-      .help = "Generated fields (default fbm; render: cobbles). trace, steps and render also take "
-              "files, repeated as "
-              "tiles." },
+      .help = "Generated fields (default fbm; render: cobbles). trace, steps, render and terrain "
+              "also take files, repeated as tiles." },
     { .name     = "methods",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -430,7 +429,8 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "methods, and maps such as pyramid, separated by commas",
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
                   "sizes); trace: these casters (default: all that are built in); steps: of fast, "
-                  "safe and maxmip (default: all)." },
+                  "safe and maxmip (default: all); terrain: those of render terrain (default: "
+                  "fast,maxmip,safe,cone-loop; gl: without fast)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,

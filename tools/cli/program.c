@@ -61,8 +61,8 @@ const hc_cli_command hc_cli_commands[] = {
       "mesh. "
       "'terrain' must come right behind 'render'.",
       false },
-    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace|steps|render]", 0, 1,
-      "Measure the baker, the casters of rays, their steps, or frames of relief",
+    { "bench", HC_CLI_BENCH, hc_cli_run_bench, "[bake|trace|steps|render|terrain]", 0, 1,
+      "Measure bakers, casters of rays, their steps, frames of relief and terrain",
       "bake: each measurement runs in a process of its own, so that its peak memory is known.",
       true },
     { 0 },

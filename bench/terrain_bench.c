@@ -1,0 +1,243 @@
+#include "terrain_bench.h"
+
+#include <heightcast/bake.h>
+
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+enum { WIDTH = 480, HEIGHT = 270, REPEAT = 3, FRAMES = 5, TOURS = 2 };
+
+static const hc_tour tours[TOURS] = { HC_TOUR_FLY, HC_TOUR_WALK };
+
+typedef struct job {
+    const hc_bench_terrain_options *options;
+    const char                     *name; /* of the field */
+    hc_field                        field;
+    hc_trace_method                 method;
+    hc_cones                        cones;
+    float                          *ratios;
+    hc_picture                      picture;
+    hc_log                         *log;
+} job;
+
+const char *hc_bench_terrain_method(int index)
+{
+    return index < hc_trace_method_count() ? hc_trace_method_name((hc_trace_method)index) : NULL;
+}
+
+static double now(void)
+{
+    struct timespec time;
+    (void)clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* ---- getting ready --------------------------------------------------------------------------- */
+
+static size_t ratio_count(const job *j)
+{
+    return hc_trace_method_needs(j->method) == HC_NEEDS_NOTHING
+               ? 0
+               : (size_t)j->field.width * (size_t)j->field.height
+                     * (size_t)hc_cones_channels(j->cones);
+}
+
+/* From ratios of samples to those of cells. */
+static hc_result to_cells(job *j)
+{
+    float *cells = malloc(ratio_count(j) * sizeof *cells);
+    if (cells == NULL) {
+        return HC_ERROR_MEMORY;
+    }
+    hc_bake_cell_ratios(cells, j->ratios, j->field.width, j->field.height, j->cones, j->field.wrap);
+    free(j->ratios);
+    j->ratios = cells;
+    return HC_OK;
+}
+
+static hc_result bake(job *j)
+{
+    const hc_trace_needs needs = hc_trace_method_needs(j->method);
+    j->cones                   = needs == HC_NEEDS_CELL_RATIOS ? HC_CONES_QUAD : HC_CONES_L2;
+    if (needs == HC_NEEDS_NOTHING) {
+        return HC_OK;
+    }
+    const hc_cone_options options = { .cones   = j->cones,
+                                      .method  = needs == HC_NEEDS_RELAXED ? HC_METHOD_FALLING_EDGE
+                                                                           : HC_METHOD_EXACT,
+                                      .threads = j->options->threads };
+    j->ratios                     = malloc(ratio_count(j) * sizeof *j->ratios);
+    hc_result result              = HC_ERROR_MEMORY;
+    if (j->ratios != NULL) {
+        result = hc_bake_cone_map(j->ratios, &j->field, &options, j->log);
+    }
+    return result == HC_OK && needs == HC_NEEDS_CELL_RATIOS ? to_cells(j) : result;
+}
+
+static hc_trace_options trace_of(const job *j)
+{
+    return (hc_trace_options){
+        .method = j->method, .ratios = j->ratios, .cones = j->cones, .threads = j->options->threads
+    };
+}
+
+static hc_result make(hc_terrain **terrain, const job *j, hc_view view)
+{
+    const hc_terrain_scene  scene = { .field = j->field, .trace = trace_of(j), .no_shadows = true };
+    const hc_render_options options = { .view    = view,
+                                        .backend = j->options->backend,
+                                        .threads = j->options->threads };
+    return hc_terrain_create(terrain, &scene, &options, j->log);
+}
+
+/* ---- frames ---------------------------------------------------------------------------------- */
+
+/* What all frames of a tour came to. */
+typedef struct sums {
+    double seconds, entered, crossings, lost, made_up;
+} sums;
+
+static hc_result draw_tour(sums *all, job *j, const hc_terrain *terrain, hc_tour tour)
+{
+    const hc_render_figures *f = &j->picture.figures;
+    *all                       = (sums){ 0 };
+    for (int i = 0; i < FRAMES; i++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, terrain, tour, (double)i / FRAMES);
+        const hc_result result = j->options->stop != NULL && j->options->stop()
+                                     ? HC_ERROR_CANCELLED
+                                     : hc_terrain_draw(&j->picture, terrain, &camera, j->log);
+        if (result != HC_OK) {
+            return result;
+        }
+        all->seconds += f->seconds;
+        all->entered += (double)f->entered;
+        all->crossings += f->mean_crossings * (double)f->entered;
+        all->lost += (double)f->lost;
+        all->made_up += (double)f->made_up;
+    }
+    return HC_OK;
+}
+
+/* Runs go round the tours, so that a busy moment of the machine does not fall on one of them. */
+static hc_result time_tours(hc_bench_tour *found[TOURS], job *j, const hc_terrain *terrain,
+                            int runs)
+{
+    for (int run = 0; run < runs; run++) {
+        for (int i = 0; i < TOURS; i++) {
+            sums            all;
+            const hc_result result = draw_tour(&all, j, terrain, tours[i]);
+            if (result != HC_OK) {
+                return result;
+            }
+            const double rate = FRAMES / all.seconds;
+            if (rate > found[i]->frames_per_second) {
+                found[i]->frames_per_second = rate;
+            }
+            found[i]->mean_crossings = all.entered > 0.0 ? all.crossings / all.entered : 0.0;
+        }
+    }
+    return HC_OK;
+}
+
+static hc_result judge_tours(hc_bench_tour *found[TOURS], job *j)
+{
+    hc_terrain *terrain = NULL;
+    hc_result   result  = make(&terrain, j, HC_VIEW_MISSED);
+    for (int i = 0; i < TOURS && result == HC_OK; i++) {
+        sums all;
+        result            = draw_tour(&all, j, terrain, tours[i]);
+        const double rays = all.entered > 0.0 ? all.entered : 1.0;
+        found[i]->lost    = all.lost / rays;
+        found[i]->made_up = all.made_up / rays;
+    }
+    hc_terrain_destroy(terrain);
+    return result;
+}
+
+/* ---- all of them ----------------------------------------------------------------------------- */
+
+static hc_result measure_ready(hc_bench_terrain_row *row, job *j)
+{
+    hc_bench_tour *found[TOURS] = { &row->fly, &row->walk };
+    hc_terrain    *terrain      = NULL;
+    const double   start        = now();
+    hc_result      result       = bake(j);
+    result                      = result == HC_OK ? make(&terrain, j, HC_VIEW_SHADED) : result;
+    row->seconds                = now() - start;
+    if (result == HC_OK) {
+        const hc_trace_options trace = trace_of(j);
+        const size_t           held  = (size_t)j->field.width * (size_t)j->field.height;
+        row->bytes                   = (double)(sizeof(float) * (held + ratio_count(j)))
+                     + (double)hc_tracer_bytes(&j->field, &trace);
+        result = time_tours(found, j, terrain, row->runs);
+    }
+    hc_terrain_destroy(terrain);
+    return result == HC_OK ? judge_tours(found, j) : result;
+}
+
+static hc_trace_method method_named(const char *name)
+{
+    int method = 0;
+    while (strcmp(hc_trace_method_name((hc_trace_method)method), name) != 0) {
+        method++;
+    }
+    return (hc_trace_method)method;
+}
+
+static hc_result measure_method(job *j, const char *name)
+{
+    hc_bench_terrain_row row = { .field  = j->name,
+                                 .side   = j->field.width,
+                                 .method = name,
+                                 .runs   = j->options->repeat > 0 ? j->options->repeat : REPEAT,
+                                 .frames = FRAMES };
+    j->method                = method_named(name);
+    const hc_result result   = measure_ready(&row, j);
+    free(j->ratios);
+    j->ratios = NULL;
+    if (result == HC_OK) {
+        j->options->row_done(j->options->user, &row);
+    }
+    return result;
+}
+
+static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
+{
+    static const char *const usual[] = { "fast", "maxmip", "safe", "cone-loop" };
+    const int                without = j->options->backend == HC_BACKEND_GL ? 1 : 0; /* fast */
+    const bool               all     = j->options->method_count == 0;
+    const char *const       *names   = all ? usual + without : j->options->methods;
+    const int                count   = all ? 4 - without : j->options->method_count;
+    float                   *heights = malloc((size_t)side * (size_t)side * sizeof *heights);
+    hc_result                result  = HC_ERROR_MEMORY;
+    if (heights != NULL) {
+        result = hc_bench_fill_ground(heights, side, ground, j->options->seed, j->log);
+    }
+    j->name  = ground->name;
+    j->field = (hc_field){ .heights = heights, .width = side, .height = side };
+    for (int i = 0; i < count && result == HC_OK; i++) {
+        result = measure_method(j, names[i]);
+    }
+    free(heights);
+    return result;
+}
+
+hc_result hc_bench_terrain(const hc_bench_terrain_options *options, hc_log *log)
+{
+    const bool sized = options->width > 0;
+    job        j     = { .options = options,
+                         .log     = log,
+                         .picture = { .width  = sized ? options->width : WIDTH,
+                                      .height = sized ? options->height : HEIGHT } };
+    j.picture.rgb = malloc((size_t)j.picture.width * (size_t)j.picture.height * 3 * sizeof(float));
+    hc_result result = j.picture.rgb == NULL ? HC_ERROR_MEMORY : HC_OK;
+    for (int i = 0; i < options->field_count && result == HC_OK; i++) {
+        for (int s = 0; s < options->side_count && result == HC_OK; s++) {
+            result = measure_field(&j, &options->fields[i], options->sides[s]);
+        }
+    }
+    free(j.picture.rgb);
+    return result;
+}

@@ -1,0 +1,51 @@
+/* Table 1 of the 2009 paper: seconds until a landscape can be drawn, and frames of it per second,
+ * for fields of growing size and method by method. */
+#ifndef HC_BENCH_TERRAIN_BENCH_H
+#define HC_BENCH_TERRAIN_BENCH_H
+
+#include "ground.h"
+
+#include <heightcast/terrain.h>
+
+/* Of the frames of one tour. */
+typedef struct hc_bench_tour {
+    double frames_per_second; /* in the fastest run over the tour                        */
+    double mean_crossings;    /* moves from node to node, of rays that come to the box   */
+    double lost, made_up;     /* shares of them, against the exact caster                */
+} hc_bench_tour;
+
+typedef struct hc_bench_terrain_row {
+    const char   *field;
+    int           side;
+    const char   *method;
+    int           runs, frames; /* frames: of each tour                                     */
+    double        seconds;      /* from heights in memory until the first frame can be drawn */
+    double        bytes;        /* held then, heights and ratios included                   */
+    hc_bench_tour fly, walk;
+} hc_bench_terrain_row;
+
+typedef struct hc_bench_terrain_options {
+    const hc_bench_ground *fields;
+    int                    field_count;
+    const int             *sides;
+    int                    side_count;
+    const char *const     *methods;
+    int                    method_count;  /* 0: fast (not gl), maxmip, safe, cone-loop */
+    int                    width, height; /* of the frame; 0: 480 x 270               */
+    hc_backend             backend;
+    uint64_t               seed;
+    int                    repeat;  /* 0: 3 */
+    int                    threads; /* 0: one per core */
+    bool (*stop)(void);
+    void (*row_done)(void *user, const hc_bench_terrain_row *row);
+    void *user;
+} hc_bench_terrain_options;
+
+/* Names for options.methods; NULL beyond the last. */
+const char *hc_bench_terrain_method(int index);
+
+/* Safe gets quadrant cones, as hc_trace_method_needs says of the others. Frames have one ray per
+ * pixel and no shadows. */
+hc_result hc_bench_terrain(const hc_bench_terrain_options *options, hc_log *log);
+
+#endif

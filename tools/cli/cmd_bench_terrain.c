@@ -1,0 +1,166 @@
+/* heightcast bench terrain: frames of landscapes of growing size by every method, as a table, JSON
+ * and CSV. */
+#include "bench_run.h"
+#include "words.h"
+
+#include "bench/terrain_bench.h"
+
+#include <stdio.h>
+#include <string.h>
+
+enum { LINE_MAX_BYTES = 256 };
+
+static const hc_bench_terrain_row *row_at(const hc_cli_run *r, int i)
+{
+    return (const hc_bench_terrain_row *)r->rows + i;
+}
+
+static void add_tour(cJSON *object, const char *name, const hc_bench_tour *tour)
+{
+    cJSON *part = cJSON_AddObjectToObject(object, name);
+    (void)cJSON_AddNumberToObject(part, "frames_per_second", tour->frames_per_second);
+    (void)cJSON_AddNumberToObject(part, "mean_crossings", tour->mean_crossings);
+    (void)cJSON_AddNumberToObject(part, "lost", tour->lost);
+    (void)cJSON_AddNumberToObject(part, "made_up", tour->made_up);
+}
+
+static cJSON *to_json(const hc_bench_terrain_row *row)
+{
+    cJSON *object = cJSON_CreateObject();
+    (void)cJSON_AddStringToObject(object, "field", row->field);
+    (void)cJSON_AddNumberToObject(object, "side", row->side);
+    (void)cJSON_AddStringToObject(object, "method", row->method);
+    (void)cJSON_AddNumberToObject(object, "runs", row->runs);
+    (void)cJSON_AddNumberToObject(object, "frames", row->frames);
+    (void)cJSON_AddNumberToObject(object, "seconds", row->seconds);
+    (void)cJSON_AddNumberToObject(object, "bytes", row->bytes);
+    add_tour(object, "fly", &row->fly);
+    add_tour(object, "walk", &row->walk);
+    return object;
+}
+
+static void row_done(void *user, const hc_bench_terrain_row *row)
+{
+    hc_cli_run          *r    = user;
+    const hc_bench_tour *fly  = &row->fly;
+    const hc_bench_tour *walk = &row->walk;
+    char                 line[LINE_MAX_BYTES];
+    (void)snprintf(line, sizeof line,
+                   "%s,%d,%s,%d,%d,%.6g,%.0f,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,"
+                   "%.6g\n",
+                   row->field, row->side, row->method, row->runs, row->frames, row->seconds,
+                   row->bytes, fly->frames_per_second, fly->mean_crossings, fly->lost, fly->made_up,
+                   walk->frames_per_second, walk->mean_crossings, walk->lost, walk->made_up);
+    if (!hc_cli_run_add(r, row, sizeof *row, to_json(row), line)) {
+        return;
+    }
+    hc_cli_say(r->cli, "%-8s %5d %-10s %8.3f %8.1f %7.2f %7.2f %6.1f %6.1f %8.3f %8.3f\n",
+               row->field, row->side, row->method, row->seconds, row->bytes / (1024.0 * 1024.0),
+               fly->frames_per_second, walk->frames_per_second, fly->mean_crossings,
+               walk->mean_crossings, 100.0 * (fly->lost + fly->made_up),
+               100.0 * (walk->lost + walk->made_up));
+    hc_cli_run_flush(r);
+}
+
+/* ---- against maxmip, and against the smallest size ---- */
+
+/* The first row of that method on the field of `like`; side 0: of any side. */
+static const hc_bench_terrain_row *find(const hc_cli_run *r, const hc_bench_terrain_row *like,
+                                        const char *method, int side)
+{
+    for (int i = 0; i < r->count; i++) {
+        const hc_bench_terrain_row *row = row_at(r, i);
+        if (row->field == like->field && strcmp(row->method, method) == 0
+            && (side == 0 || row->side == side)) {
+            return row;
+        }
+    }
+    return NULL;
+}
+
+/* How many times the time of `other` a frame takes. */
+static void add_ratio(hc_cli_run *r, cJSON *object, const char *name,
+                      const hc_bench_terrain_row *row, const hc_bench_terrain_row *other)
+{
+    const double fly  = other->fly.frames_per_second / row->fly.frames_per_second;
+    const double walk = other->walk.frames_per_second / row->walk.frames_per_second;
+    cJSON       *part = cJSON_AddObjectToObject(object, name);
+    (void)cJSON_AddStringToObject(part, "method", other->method);
+    (void)cJSON_AddNumberToObject(part, "side", other->side);
+    (void)cJSON_AddNumberToObject(part, "fly", fly);
+    (void)cJSON_AddNumberToObject(part, "walk", walk);
+    hc_cli_say(r->cli, "  %.2f (fly) and %.2f (walk) of the time of %s %d\n", fly, walk,
+               other->method, other->side);
+}
+
+static void add_figures(hc_cli_run *r)
+{
+    cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
+    for (int i = 0; i < r->count; i++) {
+        const hc_bench_terrain_row *row    = row_at(r, i);
+        const hc_bench_terrain_row *first  = find(r, row, row->method, 0);
+        const hc_bench_terrain_row *maxmip = find(r, row, "maxmip", row->side);
+        cJSON                      *object = cJSON_CreateObject();
+        (void)cJSON_AddStringToObject(object, "field", row->field);
+        (void)cJSON_AddNumberToObject(object, "side", row->side);
+        (void)cJSON_AddStringToObject(object, "method", row->method);
+        hc_cli_say(r->cli, "\n%s %d %s: a frame takes\n", row->field, row->side, row->method);
+        add_ratio(r, object, "growth", row, first);
+        if (maxmip != NULL) {
+            add_ratio(r, object, "over_maxmip", row, maxmip);
+        }
+        (void)cJSON_AddItemToArray(list, object);
+    }
+}
+
+/* ---- the work ---- */
+
+static hc_result measure(hc_cli_run *r)
+{
+    const hc_cli_grounds          *in       = &r->in;
+    const hc_cli_settings         *settings = &r->cli->settings;
+    const hc_bench_terrain_options options  = { .fields       = in->grounds,
+                                                .field_count  = in->fields.count,
+                                                .sides        = in->numbers,
+                                                .side_count   = in->sides.count,
+                                                .methods      = in->methods.items,
+                                                .method_count = in->methods.count,
+                                                .width        = settings->size.width,
+                                                .height       = settings->size.height,
+                                                .backend      = settings->backend == HC_CLI_GL
+                                                                    ? HC_BACKEND_GL
+                                                                    : HC_BACKEND_CPU,
+                                                .seed         = settings->seed,
+                                                .repeat       = settings->repeat,
+                                                .threads      = settings->threads,
+                                                .stop         = hc_cli_run_stopped,
+                                                .row_done     = row_done,
+                                                .user         = r };
+    return hc_bench_terrain(&options, &r->cli->log);
+}
+
+static void head(hc_cli_run *r)
+{
+    hc_cli_text(r->cli, "backend", hc_cli_backend_words((int)r->cli->settings.backend));
+    hc_cli_say(r->cli, "\n%-8s %5s %-10s %8s %8s %15s %13s %17s\n", "", "", "", "", "",
+               "frames / s", "moves", "wrong, %");
+    hc_cli_say(r->cli, "%-8s %5s %-10s %8s %8s %7s %7s %6s %6s %8s %8s\n", "field", "side",
+               "method", "ready s", "MiB", "fly", "walk", "fly", "walk", "fly", "walk");
+}
+
+int hc_cli_run_bench_terrain(hc_cli *cli)
+{
+    static const hc_cli_run_kind kind = {
+        .name    = "terrain",
+        .fields  = "fbm",
+        .sides   = "256,512,1024,2048,4096",
+        .methods = hc_bench_terrain_method,
+        .columns = "field,side,method,runs,frames,seconds,bytes,fly_frames_per_second,"
+                   "fly_crossings,fly_lost,fly_made_up,walk_frames_per_second,walk_crossings,"
+                   "walk_lost,walk_made_up\n",
+        .head    = head,
+        .measure = measure,
+        .figures = add_figures
+    };
+    return hc_cli_bench_run(cli, &kind);
+}
