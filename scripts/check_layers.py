@@ -18,7 +18,7 @@ ARROWS = {
     "reference": ["base", "field"],
     "bake": ["base", "field", "maps"],
     "trace": ["base", "field", "maps"],
-    "gl": ["base"],
+    "gl": ["base", "field", "maps"],
     "gpu": ["base", "field", "maps", "bake", "gl"],
     "render": ["base", "field", "maps", "trace", "gl"],
     "io": ["base", "field", "maps"],

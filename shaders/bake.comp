@@ -5,9 +5,12 @@
  *                     HC_GRADIENT   slopes along one axis
  *                     HC_BRUTE      the steepest of all samples, some rows of them at a time
  *                     HC_EXACT      the same by pruned search of a max pyramid
+ *                     HC_UPDATE     the same again where changed heights may matter
  *                     HC_QUICK      the blocks around a texel on every level (2022, 1 and 2)
  *                     HC_FALLING    the samples that limit relaxed cones of one quadrant (2024)
  *                     HC_GEMS       relaxed cones by ray sampling (2007), likewise
+ *                     HC_RATIOS     ratios of what the searches found
+ *                     HC_CELLS      of each bilinear cell the least ratios of its corners
  *                     HC_ROUNDING   what this driver makes of quotients and roots
  *     #define HC_L2 1               round cones; 0: diamonds
  *     #define HC_SIDED 1            samples of the quadrant u_sides only; 0: all
@@ -28,6 +31,9 @@
 #define HC_GEMS 7
 #define HC_BOUNDS 8
 #define HC_GRADIENT 9
+#define HC_UPDATE 10
+#define HC_RATIOS 11
+#define HC_CELLS 12
 #ifndef HC_L2
 #define HC_L2 1
 #endif
@@ -392,9 +398,9 @@ void judge(inout steepest best, ivec2 here, ivec2 there, float apex, float rise,
 
 #endif
 
-#if HC_BAKE == HC_EXACT || HC_BAKE == HC_GEMS
+#if HC_BAKE == HC_EXACT || HC_BAKE == HC_UPDATE || HC_BAKE == HC_GEMS
 
-#if HC_BAKE == HC_EXACT
+#if HC_BAKE != HC_GEMS
 #define judge(best, here, there, apex, rise, reach) look_at(best, rise, reach)
 #endif
 
@@ -444,10 +450,8 @@ bool advance(inout ivec2 block, inout int level, ivec2 here)
     return more;
 }
 
-void run(ivec2 here)
+void search(ivec2 here, float height, steepest best)
 {
-    float    height = texelFetch(u_heights, here, 0).r;
-    steepest best   = steepest_of(u_go_on ? imageLoad(u_best, here).r : 0.0);
     float    top    = texelFetch(u_highest, ivec2(0), u_levels - 1).r;
     ivec2    block  = here;
     int      level  = top > height ? 0 : u_levels;
@@ -469,6 +473,62 @@ void run(ivec2 here)
         }
     }
     imageStore(u_best, here, vec4(best.value));
+}
+
+#endif
+
+#if HC_BAKE == HC_EXACT || HC_BAKE == HC_GEMS
+
+void run(ivec2 here)
+{
+    float height = texelFetch(u_heights, here, 0).r;
+    search(here, height, steepest_of(u_go_on ? imageLoad(u_best, here).r : 0.0));
+}
+
+#endif
+
+/* ---- a changed rectangle --------------------------------------------------------------------- */
+
+#if HC_BAKE == HC_UPDATE
+
+/* First and last sample of the rectangle, and of pieces of it in which any sample differs; with
+ * them the highest height, old or new, of those that do. */
+uniform ivec4 u_changed, u_pieces[64];
+uniform float u_top, u_tops[64];
+uniform int   u_piece_count;
+
+layout(binding = 0, offset = 0) uniform atomic_uint u_searched;
+
+/* A change matters if it is steeper than what was found, or was itself what was found. */
+bool matters(ivec2 here, float height, ivec4 rect, float top, steepest best)
+{
+    float rise = top - height;
+    return rise > 0.0 && may_be_steeper(rise, reach_to(apart_from(here, rect.xy, rect.zw)), best);
+}
+
+bool is_touched(ivec2 here, float height)
+{
+    if (all(greaterThanEqual(here, u_changed.xy)) && all(lessThanEqual(here, u_changed.zw))) {
+        return true;
+    }
+    /* Less than was found, by more than drivers that do not round are off. */
+    steepest best    = steepest_of(imageLoad(u_best, here).r * (1.0 - 7.6293945e-6));
+    bool     touched = false;
+    if (matters(here, height, u_changed, u_top, best)) {
+        for (int i = 0; i < u_piece_count && !touched; i++) {
+            touched = matters(here, height, u_pieces[i], u_tops[i], best);
+        }
+    }
+    return touched;
+}
+
+void run(ivec2 here)
+{
+    float height = texelFetch(u_heights, here, 0).r;
+    if (is_touched(here, height)) {
+        atomicCounterIncrement(u_searched);
+        search(here, height, steepest_of(0.0));
+    }
 }
 
 #endif
@@ -611,6 +671,88 @@ void run(ivec2 here)
     float at_uv = texelFetch(u_heights, out_, 0).r;
     bool  falls = at > at_u || at > at_v || at_u > at_uv || at_v > at_uv;
     imageStore(u_best, here, vec4(falls ? at : -1.0));
+}
+
+#endif
+
+/* ---- ratios ---------------------------------------------------------------------------------- */
+
+#if HC_BAKE == HC_RATIOS || HC_BAKE == HC_CELLS
+layout(binding = 1) uniform writeonly image2D u_out;
+#endif
+
+#if HC_BAKE == HC_RATIOS
+
+uniform sampler2D u_found[5];
+uniform int       u_searches; /* 1, 4 quadrants, or 5 elongated diamonds */
+uniform float     u_outwards; /* what searches found, times this */
+uniform float     u_max_ratio; /* 0: no limit */
+
+/* Beyond 2^60 there is no limit at all. */
+float ratio_of(float slope)
+{
+    precise float ratio = 1.0 / slope;
+    precise float kept  = ratio * 0.99999904632568359375;
+    float         whole = slope == 0.0 || ratio > 1.152921504606846976e18
+                              ? uintBitsToFloat(0x7f800000u) : kept;
+    return u_max_ratio > 0.0 ? min(whole, u_max_ratio) : whole;
+}
+
+float found_at(int which, ivec2 here)
+{
+    /* Arrays of samplers take constant indices only. */
+    float found = which == 0   ? texelFetch(u_found[0], here, 0).r
+                  : which == 1 ? texelFetch(u_found[1], here, 0).r
+                  : which == 2 ? texelFetch(u_found[2], here, 0).r
+                  : which == 3 ? texelFetch(u_found[3], here, 0).r
+                               : texelFetch(u_found[4], here, 0).r;
+    precise float outer = found * u_outwards;
+    return outer;
+}
+
+/* Of the elongation whose slopes have the least sum, the first such; and the plain diamond's. */
+vec4 elongated(ivec2 here)
+{
+    vec2  slopes = vec2(0.0);
+    vec2  a      = vec2(0.25, 4.0);
+    for (int i = 0; i < 5; i++) {
+        float         found = found_at(i, here);
+        precise vec2  next  = found * a;
+        precise float sum   = next.x + next.y;
+        precise float least = slopes.x + slopes.y;
+        slopes              = i == 0 || sum < least ? next : slopes;
+        a *= vec2(2.0, 0.5);
+    }
+    return vec4(ratio_of(slopes.x), ratio_of(slopes.y), ratio_of(found_at(2, here)), 0.0);
+}
+
+void run(ivec2 here)
+{
+    vec4 ratios = vec4(0.0);
+    if (u_searches == 5) {
+        ratios = elongated(here);
+    } else {
+        for (int i = 0; i < u_searches; i++) {
+            ratios[i] = ratio_of(found_at(i, here));
+        }
+    }
+    imageStore(u_out, here, ratios);
+}
+
+#endif
+
+#if HC_BAKE == HC_CELLS
+
+uniform sampler2D u_ratios;
+
+void run(ivec2 here)
+{
+    ivec2 next  = beside_of(here, ivec2(1));
+    vec4  upper = min(texelFetch(u_ratios, here, 0),
+                      texelFetch(u_ratios, ivec2(next.x, here.y), 0));
+    vec4  lower = min(texelFetch(u_ratios, ivec2(here.x, next.y), 0),
+                      texelFetch(u_ratios, next, 0));
+    imageStore(u_out, here, min(upper, lower));
 }
 
 #endif

@@ -59,6 +59,45 @@ HC_API hc_result hc_gpu_bake_bounds(hc_gpu *gpu, float *bounds, const hc_field *
 HC_API hc_result hc_gpu_bake_gradient(hc_gpu *gpu, float *gradients, const hc_field *field,
                                       hc_log *log);
 
+/* ---- maps that stay -------------------------------------------------------------------------- */
+
+/* A field and its cone ratios in textures of `gpu`, which must outlive it and whose thread alone
+ * may use it: hc_relief.baked draws them as they are, and when heights change only what the change
+ * may matter to is searched again. */
+typedef struct hc_gpu_map hc_gpu_map;
+
+typedef struct hc_gpu_map_options {
+    hc_cone_options cone; /* as hc_gpu_bake_cone_map; progress is reported by updates, too        */
+    bool            cells; /* of each bilinear cell the least of its corners' (hc_bake_cell_ratios),
+                              which `safe` takes */
+} hc_gpu_map_options;
+
+/* Bake `field`, of which nothing is borrowed; options NULL: all zero. Errors as
+ * hc_gpu_bake_cone_map. Destroy with hc_gpu_map_destroy, which accepts NULL.
+ * Memory: 4 bytes per sample; on the GPU 9.4, 4 per search (falling-edge 1) and 4 per channel (3
+ * count as 4), with cells twice. */
+HC_API hc_result hc_gpu_map_create(hc_gpu_map **map, hc_gpu *gpu, const hc_field *field,
+                                   const hc_gpu_map_options *options, hc_log *log);
+HC_API void      hc_gpu_map_destroy(hc_gpu_map *map);
+
+/* Take over heights that changed inside `changed`: the ratios are then what a full bake by this GPU
+ * gives, bit for bit.
+ *
+ * heights  the whole new field's heights; only those inside `changed` are read
+ * rebaked  [out] searches of a sample that were run again, one (l2, l1), four (quad) or five
+ *          (aniso) for each; may be NULL
+ *
+ * Method exact: samples inside `changed`, and those that its highest samples, old or new, could
+ * limit; besides a test and a division for every sample. Other methods bake all anew. After errors
+ * other than HC_ERROR_ARGUMENT and HC_ERROR_FIELD ratios are unspecified: make a new map then. */
+HC_API hc_result hc_gpu_map_update(hc_gpu_map *map, const float *heights, hc_rect changed,
+                                   size_t *rebaked, hc_log *log);
+
+/* A copy of the ratios: width * height * hc_cones_channels(cones). */
+HC_API hc_result hc_gpu_map_read(const hc_gpu_map *map, float *ratios, hc_log *log);
+
+/* ---- for whole maps -------------------------------------------------------------------------- */
+
 /* For hc_map_options.baker: hc_bake_map then has all that it stores from here. As long as
  * `gpu`. */
 HC_API const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu);

@@ -40,15 +40,21 @@ HC_API const char *hc_body_name(hc_body body); /* "plane", ...; static */
 typedef enum hc_edge { HC_EDGE_WALL = 0, HC_EDGE_DISCARD, HC_EDGE_CLAMP } hc_edge;
 HC_API const char *hc_edge_name(hc_edge edge); /* "wall", "discard", "clamp"; static */
 
+struct hc_gpu_map; /* gpu.h */
+
 typedef struct hc_relief {
     hc_field         field; /* heights are borrowed */
     hc_trace_options trace; /* method and what it needs, steps, refinements. The ratios are those of
                                `field`. The placement must be zero, the surface bilinear;
                                open_sides and threads do not count */
-    hc_body          body;
-    hc_edge          edge;
-    float            depth;  /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12 */
-    float            aspect; /* plane: y side over x side; 0: height / width of the field */
+    const struct hc_gpu_map *baked; /* NULL; or field and ratios in place of those above, in
+                               textures that are drawn as they are: backend gl, the thread of its
+                               hc_gpu, methods but fast, maxmip and qdm, views but missed and
+                               error */
+    hc_body                  body;
+    hc_edge                  edge;
+    float                    depth; /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12 */
+    float                    aspect; /* plane: y side over x side; 0: height / width of the field */
     float fade[2];   /* distances from the eye, to where a ray comes to the body's box or ball, at
                           which the relief begins to sink into the hull and is gone; so there is no
                           seam where an engine takes a plain polygon. 0 0: never */

@@ -4,13 +4,11 @@
 #include "base/parallel.h"
 #include "reach.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 enum {
     GROUP       = 64, /* side of the squares whose reach is kept [samples] */
-    GROUP_TILES = GROUP / HC_TILE_SIDE,
-    PIECES      = 8 /* a changed rectangle is looked at in at most PIECES x PIECES pieces */
+    GROUP_TILES = GROUP / HC_TILE_SIDE
 };
 
 struct hc_cone_baker {
@@ -24,7 +22,7 @@ typedef struct update {
     hc_cone_baker *baker;
     float         *ratios;
     hc_rect        changed;
-    hc_change      changes[PIECES * PIECES];
+    hc_change      changes[HC_CHANGES_MAX];
     int            change_count;
     int           *tiles; /* indices of tiles to search, row-major */
     int            tile_count;
@@ -145,63 +143,10 @@ void hc_cone_baker_destroy(hc_cone_baker *baker)
 
 /* ---- updating ---- */
 
-static hc_result check_change(const hc_cone_baker *baker, const float *heights, hc_rect r,
-                              hc_log *log)
+static float height_before(const void *owner, int x, int y)
 {
-    const int width  = baker->job.width;
-    const int height = baker->job.height;
-    if (r.x < 0 || r.y < 0 || r.width < 0 || r.height < 0 || r.width > width || r.height > height
-        || r.x > width - r.width || r.y > height - r.height) {
-        return hc_fail(log, HC_ERROR_ARGUMENT,
-                       "changed rectangle %d,%d %dx%d is not inside %d x %d", r.x, r.y, r.width,
-                       r.height, width, height);
-    }
-    for (int y = r.y; y < r.y + r.height; y++) {
-        for (int x = r.x; x < r.x + r.width; x++) {
-            const float h = heights[(size_t)y * (size_t)width + (size_t)x];
-            if (!(h >= 0.0F && h <= 1.0F)) {
-                return hc_fail(log, HC_ERROR_FIELD,
-                               "heights[%d, %d] is %g; heights must lie in 0..1", x, y, (double)h);
-            }
-        }
-    }
-    return HC_OK;
-}
-
-/* Highest old or new height of the samples of `rect` that differ; -1 if none does. */
-static float changed_top(const hc_cone_baker *baker, const float *heights, hc_rect rect)
-{
-    const hc_tree_level *blocks = &baker->plan.tree.levels[0];
-    float                top    = -1.0F;
-    for (int y = rect.y; y < rect.y + rect.height; y++) {
-        for (int x = rect.x; x < rect.x + rect.width; x++) {
-            const float before = hc_tree_node(blocks, x / 4, y / 4)[y % 4 * 4 + x % 4];
-            const float after  = heights[(size_t)y * (size_t)baker->job.width + (size_t)x];
-            if (before != after) {
-                top = fmaxf(top, fmaxf(before, after));
-            }
-        }
-    }
-    return top;
-}
-
-/* Small pieces, each with its own top: one tower does not make the whole rectangle high. */
-static void find_changes(update *u, const float *heights)
-{
-    const hc_rect r      = u->changed;
-    const int     width  = (r.width + PIECES - 1) / PIECES;
-    const int     height = (r.height + PIECES - 1) / PIECES;
-    for (int y = r.y; y < r.y + r.height; y += height) {
-        for (int x = r.x; x < r.x + r.width; x += width) {
-            hc_rect piece   = { x, y, width, height };
-            piece.width     = r.x + r.width - x < width ? r.x + r.width - x : width;
-            piece.height    = r.y + r.height - y < height ? r.y + r.height - y : height;
-            const float top = changed_top(u->baker, heights, piece);
-            if (top >= 0.0F) {
-                u->changes[u->change_count++] = (hc_change){ .rect = piece, .top = top };
-            }
-        }
-    }
+    const hc_cone_baker *baker = owner;
+    return hc_tree_node(&baker->plan.tree.levels[0], x / 4, y / 4)[y % 4 * 4 + x % 4];
 }
 
 static bool any_included(const update *u, const hc_reach *reaches, hc_rect rect)
@@ -268,7 +213,8 @@ static void search_chosen(void *context, int item, int worker)
 static hc_result apply(update *u, const float *heights, hc_log *log)
 {
     hc_cone_baker *baker = u->baker;
-    find_changes(u, heights);
+    u->change_count =
+        hc_find_changes(u->changes, heights, baker->job.width, u->changed, height_before, baker);
     if (u->change_count == 0) {
         return HC_OK;
     }
@@ -293,7 +239,7 @@ static hc_result apply(update *u, const float *heights, hc_log *log)
 hc_result hc_cone_baker_update(hc_cone_baker *baker, float *ratios, const float *heights,
                                hc_rect changed, size_t *rebaked, hc_log *log)
 {
-    hc_result result = check_change(baker, heights, changed, log);
+    hc_result result = hc_check_change(heights, baker->job.width, baker->job.height, changed, log);
     if (result != HC_OK) {
         return result;
     }

@@ -8,6 +8,7 @@
 #ifndef HC_BAKE_REACH_H
 #define HC_BAKE_REACH_H
 
+#include "change.h"
 #include "exact.h"
 
 #define HC_REACH_ENDS 22 /* 0, and 2^0 .. 2^20 columns: a field is no larger */
@@ -15,12 +16,6 @@
 typedef struct hc_reach {
     double height[HC_REACH_ENDS]; /* a sample this high, at that distance, may matter */
 } hc_reach;
-
-/* Samples that changed: where, and their highest height, old or new. */
-typedef struct hc_change {
-    hc_rect rect;
-    float   top;
-} hc_change;
 
 /* The reach of the samples of `rect` for each pass of the plan, from their ratios (at most
  * max_ratio, 0: unlimited). Heights are the tree's. */

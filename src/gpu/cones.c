@@ -1,18 +1,15 @@
 /* hc_bake_cone_map's work on the GPU: each search of a job into a texture of steepness, which the
  * CPU turns into ratios. */
-#include "gpu.h"
+#include "cones.h"
 
-#include "bake/cone_job.h"
 #include "base/fail.h"
 
 #include <epoxy/gl.h>
 
+#include <math.h>
 #include <stdlib.h>
 
 enum {
-    BEST_UNIT = 0,
-    HEIGHTS_UNIT,
-    HIGHEST_UNIT,
     ROWS_AT_FIRST = 16,
     BRUTE_TEXELS  = 1 << 14, /* of a dispatch that looks at all samples */
     FALLING       = 4        /* searches of relaxed cones */
@@ -21,25 +18,14 @@ enum {
 /* Dispatches are made smaller and larger to take this long. */
 static const double PIECE_SECONDS = 0.05;
 
-typedef struct baking {
-    hc_gpu            *gpu;
-    const hc_cone_job *job;
-    hc_method          method;
-    bool               l2;
-    hc_cone_search     searches[HC_CONE_SEARCHES_MAX];
-    int                count, current; /* searches */
-    unsigned           heights, highest, best;
-    float             *steepness; /* width * height of each search that is kept */
-} baking;
-
-static size_t samples(const baking *b)
+static size_t samples(const hc_gpu_baking *b)
 {
     return (size_t)b->job->width * (size_t)b->job->height;
 }
 
 /* ---- pieces --------------------------------------------------------------------------------- */
 
-static hc_result report(const baking *b, double share)
+static hc_result report(const hc_gpu_baking *b, double share)
 {
     const hc_progress *progress = &b->job->progress;
     const double       all      = (b->current + share) / b->count;
@@ -60,7 +46,7 @@ static int least(int a, int b)
 }
 
 /* All texels, some rows at a time. */
-static hc_result run_rows(const baking *b, unsigned program)
+static hc_result run_rows(const hc_gpu_baking *b, unsigned program)
 {
     hc_result result = HC_OK;
     int       rows   = ROWS_AT_FIRST;
@@ -76,7 +62,7 @@ static hc_result run_rows(const baking *b, unsigned program)
 }
 
 /* Some texels against all samples, some rows of them at a time. */
-static hc_result run_against_all(const baking *b, unsigned program, const int first[2],
+static hc_result run_against_all(const hc_gpu_baking *b, unsigned program, const int first[2],
                                  const int end[2], int *rows)
 {
     hc_result result = HC_OK;
@@ -91,7 +77,7 @@ static hc_result run_against_all(const baking *b, unsigned program, const int fi
     return result;
 }
 
-static hc_result run_brute(const baking *b, unsigned program)
+static hc_result run_brute(const hc_gpu_baking *b, unsigned program)
 {
     const int width  = b->job->width;
     const int height = b->job->height;
@@ -111,7 +97,7 @@ static hc_result run_brute(const baking *b, unsigned program)
 
 /* ---- searches ------------------------------------------------------------------------------- */
 
-static void set_search(const baking *b, unsigned program)
+static void set_search(const hc_gpu_baking *b, unsigned program)
 {
     const hc_cone_search *search = &b->searches[b->current];
     const bool            centre =
@@ -124,8 +110,8 @@ static void set_search(const baking *b, unsigned program)
     glUniform2f(glGetUniformLocation(program, "u_step"), search->step_u, search->step_v);
     glUniform1i(glGetUniformLocation(program, "u_levels"),
                 hc_pyramid_levels(b->job->width, b->job->height));
-    glUniform1i(glGetUniformLocation(program, "u_heights"), HEIGHTS_UNIT);
-    glUniform1i(glGetUniformLocation(program, "u_highest"), HIGHEST_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_heights"), HC_GPU_HEIGHTS_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_highest"), HC_GPU_HIGHEST_UNIT);
     glUniform1i(glGetUniformLocation(program, "u_improved"), improved);
     glUniform1i(glGetUniformLocation(program, "u_gems_steps"), b->job->gems_steps);
     glUniform1i(glGetUniformLocation(program, "u_centre"), centre);
@@ -135,11 +121,11 @@ static void set_search(const baking *b, unsigned program)
 
 static void bind_best(unsigned texture)
 {
-    glBindImageTexture(BEST_UNIT, texture, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+    glBindImageTexture(HC_GPU_BEST_UNIT, texture, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
 }
 
 /* The samples that limit the quadrant's relaxed cones, in place of all. */
-static hc_result keep_falling(const baking *b)
+static hc_result keep_falling(const hc_gpu_baking *b)
 {
     const int       first[2] = { 0, 0 };
     const int       end[2]   = { b->job->width, b->job->height };
@@ -156,10 +142,32 @@ static hc_result keep_falling(const baking *b)
                                b->job->log);
 }
 
-static hc_gpu_shader shader_of(hc_method method)
+static void set_change(unsigned program, const hc_gpu_change *change)
 {
-    switch (method) {
-    case HC_METHOD_EXACT:
+    GLint         rects[HC_CHANGES_MAX][4];
+    float         tops[HC_CHANGES_MAX], top = -1.0F;
+    const hc_rect all = change->rect;
+    for (int i = 0; i < change->count; i++) {
+        const hc_rect r = change->pieces[i].rect;
+        rects[i][0]     = r.x;
+        rects[i][1]     = r.y;
+        rects[i][2]     = r.x + r.width - 1;
+        rects[i][3]     = r.y + r.height - 1;
+        tops[i]         = change->pieces[i].top;
+        top             = fmaxf(top, tops[i]);
+    }
+    glUniform4i(glGetUniformLocation(program, "u_changed"), all.x, all.y, all.x + all.width - 1,
+                all.y + all.height - 1);
+    glUniform1f(glGetUniformLocation(program, "u_top"), top);
+    glUniform1i(glGetUniformLocation(program, "u_piece_count"), change->count);
+    glUniform4iv(glGetUniformLocation(program, "u_pieces"), change->count, rects[0]);
+    glUniform1fv(glGetUniformLocation(program, "u_tops"), change->count, tops);
+}
+
+static hc_gpu_shader shader_of(const hc_gpu_baking *b)
+{
+    switch (b->method) {
+    case HC_METHOD_EXACT: return b->change != NULL ? HC_GPU_UPDATE : HC_GPU_EXACT;
     case HC_METHOD_FALLING_EDGE: return HC_GPU_EXACT;
     case HC_METHOD_BRUTE: return HC_GPU_BRUTE;
     case HC_METHOD_GEMS: return HC_GPU_GEMS;
@@ -167,95 +175,66 @@ static hc_gpu_shader shader_of(hc_method method)
     }
 }
 
-static hc_result search(const baking *b)
+hc_result hc_gpu_search(const hc_gpu_baking *b)
 {
-    const bool          sided  = b->searches[b->current].sign_u != 0;
-    const bool          brute  = b->method == HC_METHOD_BRUTE;
-    const hc_gpu_shader shader = shader_of(b->method);
-    unsigned            program;
-    hc_result           result = HC_OK;
+    const bool sided = b->searches[b->current].sign_u != 0;
+    const bool brute = b->method == HC_METHOD_BRUTE;
+    unsigned   program;
+    hc_result  result = HC_OK;
     if (b->method == HC_METHOD_FALLING_EDGE) {
         result = keep_falling(b);
     }
     if (result == HC_OK) {
-        result = hc_gpu_use(b->gpu, &program, shader, b->l2, sided, b->job->log);
+        result = hc_gpu_use(b->gpu, &program, shader_of(b), b->l2, sided, b->job->log);
     }
     if (result != HC_OK) {
         return result;
     }
     set_search(b, program);
+    if (b->change != NULL) {
+        set_change(program, b->change);
+    }
     bind_best(b->best);
     hc_gpu_warm_up(program);
     return brute ? run_brute(b, program) : run_rows(b, program);
 }
 
-static hc_result read_back(const baking *b)
-{
-    const bool one = b->method == HC_METHOD_FALLING_EDGE;
-    glActiveTexture(GL_TEXTURE0);
-    glBindTexture(GL_TEXTURE_2D, b->best);
-    glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT,
-                  b->steepness + (one ? 0 : (size_t)b->current * samples(b)));
-    return hc_gl_check("reading back", b->job->log);
-}
-
-/* ---- ratios --------------------------------------------------------------------------------- */
-
-/* Drivers that do not round may have found up to 2^-19 less than there is. */
-static float outwards(const hc_gpu *gpu, float steepness)
-{
-    return gpu->rounds ? steepness : steepness * (1.0F + 0x1p-18F);
-}
-
-static void write_ratios(const baking *b)
-{
-    const size_t count    = samples(b);
-    const int    channels = b->job->channels;
-    const int    kept     = b->method == HC_METHOD_FALLING_EDGE ? 1 : b->count;
-    for (size_t i = 0; i < count; i++) {
-        float steepness[HC_CONE_SEARCHES_MAX];
-        for (int k = 0; k < kept; k++) {
-            steepness[k] = outwards(b->gpu, b->steepness[(size_t)k * count + i]);
-        }
-        hc_write_ratios(b->job->ratios + i * (size_t)channels, b->job->cones, steepness);
-    }
-}
-
-/* ---- all together --------------------------------------------------------------------------- */
+/* ---- planning and loading ------------------------------------------------------------------- */
 
 /* Relaxed cones are searched by quadrants, too. */
-static void plan(baking *b)
+hc_gpu_baking hc_gpu_plan(hc_gpu *gpu, const hc_cone_job *job, const hc_cone_options *options)
 {
-    b->count = hc_cone_searches(b->searches, b->job);
-    if (b->method == HC_METHOD_FALLING_EDGE) {
+    hc_gpu_baking b = {
+        .gpu = gpu, .job = job, .method = options->method, .l2 = options->cones == HC_CONES_L2
+    };
+    b.count = hc_cone_searches(b.searches, job);
+    if (b.method == HC_METHOD_FALLING_EDGE) {
         for (int i = 0; i < FALLING; i++) {
-            b->searches[i] = (hc_cone_search){ .step_u = b->job->step_u,
-                                               .step_v = b->job->step_v,
-                                               .sign_u = i % 2 == 0 ? 1 : -1,
-                                               .sign_v = i / 2 == 0 ? 1 : -1 };
+            b.searches[i] = (hc_cone_search){ .step_u = job->step_u,
+                                              .step_v = job->step_v,
+                                              .sign_u = i % 2 == 0 ? 1 : -1,
+                                              .sign_v = i / 2 == 0 ? 1 : -1 };
         }
-        b->count = FALLING;
+        b.count = FALLING;
     }
+    return b;
 }
 
-static hc_result load(baking *b)
+int hc_gpu_finds(const hc_gpu_baking *b)
+{
+    return b->method == HC_METHOD_FALLING_EDGE ? 1 : b->count;
+}
+
+hc_result hc_gpu_load(hc_gpu_baking *b)
 {
     const hc_cone_job *job     = b->job;
     const int          levels  = hc_pyramid_levels(job->width, job->height);
     const bool         relaxed = b->method == HC_METHOD_FALLING_EDGE;
-    const size_t       kept    = relaxed ? 1 : (size_t)b->count;
-    b->steepness               = malloc(samples(b) * kept * sizeof *b->steepness);
-    if (b->steepness == NULL) {
-        return hc_fail(job->log, HC_ERROR_MEMORY, "no memory for what the GPU finds");
-    }
-    glActiveTexture(GL_TEXTURE0 + BEST_UNIT);
-    hc_result result = hc_gpu_texture(&b->best, job->width, job->height, 1, NULL, job->log);
+    glActiveTexture(GL_TEXTURE0 + HC_GPU_HEIGHTS_UNIT);
+    hc_result result =
+        hc_gpu_texture(&b->heights, job->width, job->height, 1, job->heights, job->log);
     if (result == HC_OK) {
-        glActiveTexture(GL_TEXTURE0 + HEIGHTS_UNIT);
-        result = hc_gpu_texture(&b->heights, job->width, job->height, 1, job->heights, job->log);
-    }
-    if (result == HC_OK) {
-        glActiveTexture(GL_TEXTURE0 + HIGHEST_UNIT);
+        glActiveTexture(GL_TEXTURE0 + HC_GPU_HIGHEST_UNIT);
         result = hc_gpu_texture(&b->highest, job->width, job->height, levels,
                                 relaxed ? NULL : job->heights, job->log);
     }
@@ -266,21 +245,68 @@ static hc_result load(baking *b)
     return result;
 }
 
-static hc_result bake(baking *b)
+void hc_gpu_bind(const hc_gpu_baking *b)
 {
-    hc_result result = load(b);
+    glActiveTexture(GL_TEXTURE0 + HC_GPU_HEIGHTS_UNIT);
+    glBindTexture(GL_TEXTURE_2D, b->heights);
+    glActiveTexture(GL_TEXTURE0 + HC_GPU_HIGHEST_UNIT);
+    glBindTexture(GL_TEXTURE_2D, b->highest);
+}
+
+/* ---- ratios, read back ---------------------------------------------------------------------- */
+
+float hc_gpu_outwards(const hc_gpu *gpu)
+{
+    return gpu->rounds ? 1.0F : 1.0F + 0x1p-18F;
+}
+
+static hc_result read_back(const hc_gpu_baking *b, float *steepness)
+{
+    glActiveTexture(GL_TEXTURE0 + HC_GPU_BEST_UNIT);
+    glBindTexture(GL_TEXTURE_2D, b->best);
+    glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT,
+                  steepness + (hc_gpu_finds(b) == 1 ? 0 : (size_t)b->current * samples(b)));
+    return hc_gl_check("reading back", b->job->log);
+}
+
+static void write_ratios(const hc_gpu_baking *b, const float *found)
+{
+    const size_t count    = samples(b);
+    const int    channels = b->job->channels;
+    for (size_t i = 0; i < count; i++) {
+        float steepness[HC_CONE_SEARCHES_MAX];
+        for (int k = 0; k < hc_gpu_finds(b); k++) {
+            steepness[k] = found[(size_t)k * count + i] * hc_gpu_outwards(b->gpu);
+        }
+        hc_write_ratios(b->job->ratios + i * (size_t)channels, b->job->cones, steepness);
+    }
+}
+
+static hc_result bake(hc_gpu_baking *b, float *steepness)
+{
+    const hc_cone_job *job = b->job;
+    glActiveTexture(GL_TEXTURE0 + HC_GPU_BEST_UNIT);
+    hc_result result = hc_gpu_texture(&b->best, job->width, job->height, 1, NULL, job->log);
+    result           = result == HC_OK ? hc_gpu_load(b) : result;
     for (b->current = 0; b->current < b->count && result == HC_OK; b->current++) {
-        result = search(b);
-        result = result == HC_OK ? read_back(b) : result;
+        result = hc_gpu_search(b);
+        result = result == HC_OK ? read_back(b, steepness) : result;
     }
     if (result == HC_OK) {
-        write_ratios(b);
+        write_ratios(b, steepness);
     }
     glDeleteTextures(1, &b->best);
     glDeleteTextures(1, &b->heights);
     glDeleteTextures(1, &b->highest);
-    free(b->steepness);
     return result;
+}
+
+hc_result hc_gpu_check_method(hc_method method, hc_log *log)
+{
+    return method != HC_METHOD_RING
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_UNSUPPORTED,
+                         "options.method ring is the CPU's alone; exact gives the same");
 }
 
 hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field,
@@ -289,21 +315,20 @@ hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field
     const hc_cone_options given = options != NULL ? *options : (hc_cone_options){ 0 };
     hc_cone_job           job;
     hc_result             result = hc_cone_job_init(&job, ratios, field, &given, log);
-    if (result == HC_OK && given.method == HC_METHOD_RING) {
-        result = hc_fail(log, HC_ERROR_UNSUPPORTED,
-                         "options.method ring is the CPU's alone; exact gives the same");
-    }
+    result = result == HC_OK ? hc_gpu_check_method(given.method, log) : result;
     result = result == HC_OK ? hc_gpu_begin(gpu, log) : result;
-    if (result == HC_OK) {
-        baking b = {
-            .gpu = gpu, .job = &job, .method = given.method, .l2 = given.cones == HC_CONES_L2
-        };
-        plan(&b);
-        result = bake(&b);
+    if (result != HC_OK) {
+        return result;
     }
+    hc_gpu_baking b         = hc_gpu_plan(gpu, &job, &given);
+    float        *steepness = malloc(samples(&b) * (size_t)hc_gpu_finds(&b) * sizeof *steepness);
+    if (steepness == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for what the GPU finds");
+    }
+    result = bake(&b, steepness);
+    free(steepness);
     if (result == HC_OK) {
-        const size_t count = (size_t)job.width * (size_t)job.height * (size_t)job.channels;
-        hc_limit_ratios(ratios, count, given.max_ratio);
+        hc_limit_ratios(ratios, samples(&b) * (size_t)job.channels, given.max_ratio);
     }
     return result;
 }

@@ -52,7 +52,8 @@ static void dispatch(unsigned program, const int first[2], const int end[2], uns
     hc_gpu_set_pair(program, "u_end", end[0], end[1]);
     glDispatchCompute(across, down, 1);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
-                    | GL_TEXTURE_UPDATE_BARRIER_BIT);
+                    | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_ATOMIC_COUNTER_BARRIER_BIT
+                    | GL_BUFFER_UPDATE_BARRIER_BIT);
     glFinish();
 }
 
@@ -90,8 +91,8 @@ double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const 
 
 /* ---- textures ------------------------------------------------------------------------------- */
 
-hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
-                         hc_log *log)
+static hc_result make_texture(unsigned *texture, GLenum format, int width, int height, int levels,
+                              const float *values, hc_log *log)
 {
     const hc_result result = hc_gl_check_size(width, height, "field", log);
     if (result != HC_OK) {
@@ -101,11 +102,22 @@ hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, c
     glBindTexture(GL_TEXTURE_2D, *texture);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    glTexStorage2D(GL_TEXTURE_2D, levels, GL_R32F, width, height);
+    glTexStorage2D(GL_TEXTURE_2D, levels, format, width, height);
     if (values != NULL) {
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RED, GL_FLOAT, values);
     }
     return hc_gl_check("field", log);
+}
+
+hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
+                         hc_log *log)
+{
+    return make_texture(texture, GL_R32F, width, height, levels, values, log);
+}
+
+hc_result hc_gpu_ratio_texture(unsigned *texture, int width, int height, int channels, hc_log *log)
+{
+    return make_texture(texture, channels == 1 ? GL_R32F : GL_RGBA32F, width, height, 1, NULL, log);
 }
 
 /* ---- arithmetic ----------------------------------------------------------------------------- */

@@ -17,6 +17,9 @@ typedef enum hc_gpu_shader {
     HC_GPU_GEMS,
     HC_GPU_BOUNDS,
     HC_GPU_GRADIENT,
+    HC_GPU_UPDATE,
+    HC_GPU_RATIOS,
+    HC_GPU_CELLS,
     HC_GPU_SHADERS
 } hc_gpu_shader;
 
@@ -43,9 +46,14 @@ hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool 
 hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, const float *values,
                          hc_log *log);
 
-/* Level 0 is there: all above it. */
+/* Of one or of four floats, undefined. */
+hc_result hc_gpu_ratio_texture(unsigned *texture, int width, int height, int channels, hc_log *log);
+
+/* Level 0 is there: all above it; or what lies above a rectangle of it. */
 hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
                               hc_extreme extreme, hc_log *log);
+hc_result hc_gpu_update_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
+                                hc_rect changed, hc_extreme extreme, hc_log *log);
 
 /* Drivers finish compiling when a program runs for the first time: have it done, with what is
  * bound. */

@@ -87,6 +87,38 @@ hc_result hc_gpu_bake_gradient(hc_gpu *gpu, float *gradients, const hc_field *fi
     return refuse(log);
 }
 
+hc_result hc_gpu_map_create(hc_gpu_map **map, hc_gpu *gpu, const hc_field *field,
+                            const hc_gpu_map_options *options, hc_log *log)
+{
+    *map = NULL;
+    (void)gpu;
+    (void)field;
+    (void)options;
+    return refuse(log);
+}
+
+void hc_gpu_map_destroy(hc_gpu_map *map)
+{
+    (void)map;
+}
+
+hc_result hc_gpu_map_update(hc_gpu_map *map, const float *heights, hc_rect changed, size_t *rebaked,
+                            hc_log *log)
+{
+    (void)map;
+    (void)heights;
+    (void)changed;
+    (void)rebaked;
+    return refuse(log);
+}
+
+hc_result hc_gpu_map_read(const hc_gpu_map *map, float *ratios, hc_log *log)
+{
+    (void)map;
+    (void)ratios;
+    return refuse(log);
+}
+
 const hc_map_baker *hc_gpu_map_baker(hc_gpu *gpu)
 {
     (void)gpu;

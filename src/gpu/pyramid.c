@@ -10,19 +10,29 @@ static int half(int side, int level)
     return side >> level > 1 ? side >> level : 1;
 }
 
-hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
-                              hc_extreme extreme, hc_log *log)
+/* The block of a level that holds a sample; the last one has what is left over. */
+static int block_of(int sample, int side, int level)
 {
-    static const int first[2] = { 0, 0 };
-    unsigned         program;
-    const hc_result  result = hc_gpu_use(gpu, &program, HC_GPU_PYRAMID, false, false, log);
+    const int last = half(side, level) - 1;
+    return sample >> level < last ? sample >> level : last;
+}
+
+hc_result hc_gpu_update_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
+                                hc_rect changed, hc_extreme extreme, hc_log *log)
+{
+    const int       right = changed.x + changed.width - 1;
+    const int       low   = changed.y + changed.height - 1;
+    unsigned        program;
+    const hc_result result = hc_gpu_use(gpu, &program, HC_GPU_PYRAMID, false, false, log);
     if (result != HC_OK) {
         return result;
     }
     hc_gpu_set_pair(program, "u_size", width, height);
     glUniform1i(glGetUniformLocation(program, "u_minimum"), extreme == HC_MINIMUM);
     for (int level = 1; level < hc_pyramid_levels(width, height); level++) {
-        const int end[2] = { half(width, level), half(height, level) };
+        const int first[2] = { block_of(changed.x, width, level),
+                               block_of(changed.y, height, level) };
+        const int end[2] = { block_of(right, width, level) + 1, block_of(low, height, level) + 1 };
         glUniform1i(glGetUniformLocation(program, "u_level"), level);
         glBindImageTexture(0, texture, level, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         glBindImageTexture(1, texture, level - 1, GL_FALSE, 0, GL_READ_ONLY, GL_R32F);
@@ -32,6 +42,13 @@ hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int heig
         (void)hc_gpu_dispatch(gpu, program, first, end);
     }
     return hc_gl_check("pyramid", log);
+}
+
+hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
+                              hc_extreme extreme, hc_log *log)
+{
+    const hc_rect all = { 0, 0, width, height };
+    return hc_gpu_update_pyramid(gpu, texture, width, height, all, extreme, log);
 }
 
 static void read_levels(const hc_pyramid *pyramid, unsigned texture)

@@ -5,6 +5,7 @@
 #include "vec.h"
 
 #include "base/fail.h"
+#include "gl/map.h"
 
 #include <math.h>
 #include <string.h>
@@ -83,6 +84,46 @@ static hc_result check_picture(const hc_picture *picture, hc_log *log)
     CHECK(check_whole("picture.width", picture->width, 1, SIDE_MAX, log));
     CHECK(check_whole("picture.height", picture->height, 1, SIDE_MAX, log));
     return picture->rgb != NULL ? HC_OK : hc_fail(log, HC_ERROR_ARGUMENT, "picture.rgb is NULL");
+}
+
+/* True if the method finds all that it needs in the map. */
+static bool serves(const struct hc_gpu_map *map, hc_trace_method method)
+{
+    const bool diamond = map->cones == HC_CONES_L1 || map->cones == HC_CONES_QUAD;
+    const bool plain   = map->cones == HC_CONES_L2 && !map->cells;
+    switch (hc_trace_method_needs(method)) {
+    case HC_NEEDS_CELL_RATIOS: return map->cells && diamond;
+    case HC_NEEDS_RATIOS: return plain && !map->relaxed;
+    case HC_NEEDS_RELAXED: return plain && map->relaxed;
+    default: return method != HC_TRACE_FAST && method != HC_TRACE_MAXMIP && method != HC_TRACE_QDM;
+    }
+}
+
+/* What the tracer would have checked, which is not built for such a map. */
+static hc_result take_baked(hc_stage *stage, hc_log *log)
+{
+    hc_relief               *relief = &stage->scene.relief;
+    const struct hc_gpu_map *map    = relief->baked;
+    hc_trace_options        *trace  = &relief->trace;
+    CHECK(check_whole("relief.trace.method", (int)trace->method, 0, hc_trace_method_count() - 1,
+                      log));
+    CHECK(check_whole("relief.trace.steps", trace->steps, 0, 65536, log));
+    CHECK(check_whole("relief.trace.refinements", trace->refinements, -2, 64, log));
+    if (stage->options.backend != HC_BACKEND_GL || hc_view_compares(stage->options.view)) {
+        return hc_fail(log, HC_ERROR_ARGUMENT,
+                       "relief.baked is on the GPU: it is drawn by gl, in views that do not "
+                       "compare");
+    }
+    if (!serves(map, trace->method)) {
+        return hc_fail(log, HC_ERROR_ARGUMENT,
+                       "relief.baked has %s%s ratios%s, which %s does not take",
+                       map->relaxed ? "relaxed " : "", hc_cones_name(map->cones),
+                       map->cells ? " of cells" : "", hc_trace_method_name(trace->method));
+    }
+    relief->field = map->field;
+    trace->ratios = NULL;
+    trace->cones  = map->cones;
+    return HC_OK;
 }
 
 /* ---- defaults ------------------------------------------------------------------------------ */
@@ -215,8 +256,11 @@ bool hc_view_compares(hc_view view)
 static hc_result build(hc_stage *stage, hc_log *log)
 {
     hc_trace_options trace = stage->scene.relief.trace;
-    trace.open_sides       = false;
-    trace.threads          = stage->options.threads;
+    if (stage->scene.relief.baked != NULL) {
+        return HC_OK;
+    }
+    trace.open_sides = false;
+    trace.threads    = stage->options.threads;
     hc_result result = hc_tracer_create(&stage->tracer, &stage->scene.relief.field, &trace, log);
     if (result == HC_OK && hc_view_compares(stage->options.view)) {
         const hc_trace_options exact = { .method = HC_TRACE_MAXMIP };
@@ -233,7 +277,11 @@ hc_result hc_stage_set(hc_stage *stage, const hc_picture *picture, const hc_scen
         stage->options = *options;
     }
     CHECK(check_picture(picture, log));
-    CHECK(hc_field_check(&scene->relief.field, log));
+    if (scene->relief.baked != NULL) {
+        CHECK(take_baked(stage, log));
+    } else {
+        CHECK(hc_field_check(&scene->relief.field, log));
+    }
     CHECK(check_rest(scene, &stage->options, log));
     if ((unsigned)stage->scene.relief.body <= HC_BODY_TORUS) {
         resolve_relief(&stage->scene.relief);

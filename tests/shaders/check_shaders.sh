@@ -85,13 +85,13 @@ search() {
     check "$1-$2-$3.comp" comp
 }
 
-for name in BRUTE EXACT QUICK; do
+for name in BRUTE EXACT UPDATE QUICK; do
     for sides in "0 0" "0 1" "1 0" "1 1"; do
         # shellcheck disable=SC2086 # two words
         search $name $sides
     done
 done
-for name in PYRAMID BOUNDS GRADIENT FALLING ROUNDING GEMS; do
+for name in PYRAMID BOUNDS GRADIENT FALLING RATIOS CELLS ROUNDING GEMS; do
     search $name 1 0
 done
 

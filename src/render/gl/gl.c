@@ -4,14 +4,15 @@
 #include "bands.h"
 #include "load.h"
 
-#include "gl/context.h"
+#include "gl/map.h"
 
 #include <epoxy/gl.h>
 
 #include <stdio.h>
 
 typedef struct canvas {
-    hc_gl_context context;
+    hc_gl_context context; /* its own, unless the map on the GPU has one */
+    bool          there;   /* one of them is the thread's                */
     unsigned      textures[HC_GL_TEXTURES];
     hc_bands      bands;
 } canvas;
@@ -31,9 +32,11 @@ static hc_result build(unsigned *program, const hc_stage *stage, hc_trace_method
 
 static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
 {
-    const hc_trace_method method = stage->scene.relief.trace.method;
-    hc_result             result = hc_gl_open(&c->context, log);
-    result                       = result != HC_OK ? result : hc_gl_load(c->textures, stage, log);
+    const hc_trace_method    method = stage->scene.relief.trace.method;
+    const struct hc_gpu_map *map    = stage->scene.relief.baked;
+    hc_result result = map != NULL ? hc_gl_use(map->context, log) : hc_gl_open(&c->context, log);
+    c->there         = result == HC_OK;
+    result           = result != HC_OK ? result : hc_gl_load(c->textures, stage, log);
     if (result == HC_OK) {
         result = hc_bands_make(&c->bands, stage->width, stage->height, HC_GL_TEXTURES, log);
     }
@@ -49,13 +52,15 @@ static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
 
 static void unmake(canvas *c)
 {
-    if (c->context.context != NULL) {
+    if (c->there) {
         glDeleteProgram(c->bands.program);
         glDeleteProgram(c->bands.exact);
         glDeleteTextures(HC_GL_TEXTURES, c->textures);
         hc_bands_free(&c->bands);
     }
-    hc_gl_close(&c->context);
+    if (c->context.display != NULL) {
+        hc_gl_close(&c->context);
+    }
 }
 
 static void add(void *user, hc_pixel *pixel, const hc_sample *sample, const double direction[3],

@@ -13,12 +13,11 @@ static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *trace
     return bounds != NULL ? hc_upload_pyramid(texture, unit, bounds, log) : HC_OK;
 }
 
-hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log)
+static hc_result load_field(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log)
 {
-    const hc_relief   *relief = &stage->scene.relief;
-    const hc_material *m      = &stage->scene.material;
-    const hc_field    *field  = &relief->field;
-    const bool         needs  = hc_trace_method_needs(relief->trace.method) != HC_NEEDS_NOTHING;
+    const hc_relief *relief = &stage->scene.relief;
+    const hc_field  *field  = &relief->field;
+    const bool       needs  = hc_trace_method_needs(relief->trace.method) != HC_NEEDS_NOTHING;
     hc_result result = hc_upload_image(&textures[HC_GL_HEIGHTS], HC_GL_HEIGHTS, field->heights,
                                        field->width, field->height, 1, "field", log);
     hc_upload_wrap(field->wrap);
@@ -26,6 +25,18 @@ hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, h
         result = hc_upload_image(&textures[HC_GL_RATIOS], HC_GL_RATIOS, relief->trace.ratios,
                                  field->width, field->height,
                                  hc_cones_channels(relief->trace.cones), "ratios", log);
+    }
+    return result;
+}
+
+hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log)
+{
+    const hc_material *m      = &stage->scene.material;
+    hc_result          result = HC_OK;
+    if (stage->scene.relief.baked != NULL) {
+        hc_upload_baked(HC_GL_HEIGHTS, HC_GL_RATIOS, stage->scene.relief.baked);
+    } else {
+        result = load_field(textures, stage, log);
     }
     if (result == HC_OK) {
         result = load_bounds(&textures[HC_GL_BOUNDS], HC_GL_BOUNDS, stage->tracer, log);

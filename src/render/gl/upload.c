@@ -44,6 +44,17 @@ void hc_upload_wrap(hc_wrap wrap)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, v ? GL_REPEAT : GL_CLAMP_TO_EDGE);
 }
 
+void hc_upload_baked(int heights_unit, int ratios_unit, const struct hc_gpu_map *map)
+{
+    const unsigned textures[] = { map->heights, map->ratios };
+    const int      units[]    = { heights_unit, ratios_unit };
+    for (int i = 0; i < 2; i++) {
+        glActiveTexture(GL_TEXTURE0 + (GLenum)units[i]);
+        glBindTexture(GL_TEXTURE_2D, textures[i]);
+        hc_upload_wrap(map->field.wrap);
+    }
+}
+
 hc_result hc_upload_pyramid(unsigned *texture, int unit, const hc_pyramid *pyramid, hc_log *log)
 {
     begin_texture(texture, unit, pyramid->levels);

@@ -4,12 +4,16 @@
 
 #include "../eye.h"
 
+#include "gl/map.h"
+
 /* ---- textures: *texture is a new name, bound to `unit` ---- */
 
 hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int width, int height,
                           int channels, const char *what, hc_log *log);
 /* Of the texture just loaded: textureGather reads over the edges that repeat. */
-void      hc_upload_wrap(hc_wrap wrap);
+void hc_upload_wrap(hc_wrap wrap);
+/* Heights and ratios that are textures already. */
+void      hc_upload_baked(int heights_unit, int ratios_unit, const struct hc_gpu_map *map);
 hc_result hc_upload_pyramid(unsigned *texture, int unit, const hc_pyramid *pyramid, hc_log *log);
 
 /* ---- uniforms of the program in use; those that it does not have are passed over ---- */
