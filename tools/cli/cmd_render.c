@@ -1,7 +1,8 @@
-/* heightcast render relief: a field as relief on a body, into a picture. */
+/* heightcast render relief: a field as relief on a body, into a picture or many. */
+#include "animate.h"
 #include "commands.h"
-#include "drawing.h"
 #include "figures.h"
+#include "frames.h"
 #include "options.h"
 #include "relief.h"
 #include "words.h"
@@ -21,24 +22,6 @@ enum {
 };
 
 /* ---- choices that make no sense ---- */
-
-static int check_outputs(hc_cli *cli)
-{
-    const hc_cli_settings *settings = &cli->settings;
-    if (settings->out == NULL) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --out FILE.png");
-    }
-    int code = hc_cli_check_ending(cli, "out", settings->out, ".png, .exr");
-    if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
-        code =
-            hc_cli_check_ending(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
-        if (code == HC_CLI_DONE && strcmp(settings->out, settings->render.depth_out) == 0) {
-            code = hc_cli_fail(cli, HC_CLI_USAGE, "--out and --depth-out are the same file, %s",
-                               settings->out);
-        }
-    }
-    return code;
-}
 
 static int check_light(hc_cli *cli)
 {
@@ -78,6 +61,19 @@ static int check_lod(hc_cli *cli)
     return HC_CLI_DONE;
 }
 
+static int check_animation(hc_cli *cli)
+{
+    const hc_cli_settings *settings = &cli->settings;
+    const bool             moves    = settings->render.motion != HC_CLI_STILL;
+    if (moves && settings->frames == 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--animate needs --frames, which says how many");
+    }
+    if (!moves && settings->frames > 0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--frames needs --animate: they would be the same");
+    }
+    return HC_CLI_DONE;
+}
+
 static int check_meaning(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
@@ -105,8 +101,9 @@ static int check_meaning(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
                            hc_cones_name(cones));
     }
-    const int code = check_light(cli);
-    return code == HC_CLI_DONE ? check_lod(cli) : code;
+    int code = check_light(cli);
+    code     = code == HC_CLI_DONE ? check_lod(cli) : code;
+    return code == HC_CLI_DONE ? check_animation(cli) : code;
 }
 
 /* ---- the legend of heat maps ---- */
@@ -153,17 +150,22 @@ static void draw_over(hc_cli_canvas *c, const hc_cli *cli, const hc_picture *pic
     }
 }
 
-static void show(hc_cli *cli, const hc_picture *picture)
+/* Of one picture, or of all frames; top: of the last. */
+static void show(hc_cli *cli, const hc_picture *picture, const hc_cli_totals *totals)
 {
     const hc_cli_settings   *settings = &cli->settings;
-    const hc_render_figures *f        = &picture->figures;
+    const hc_render_figures *f        = &totals->sum;
     const hc_view            view     = settings->render.view;
+    const double             entered  = f->entered > 0 ? (double)f->entered : 1.0;
     hc_cli_text(cli, "input", settings->paths[1]);
     hc_cli_text(cli, "output", settings->out);
     if (settings->render.depth_out != NULL) {
         hc_cli_text(cli, "depth_output", settings->render.depth_out);
     }
     hc_cli_show_size(cli, picture->width, picture->height);
+    if (settings->frames > 0) {
+        hc_cli_number(cli, "frames", totals->frames, NULL);
+    }
     hc_cli_text(cli, "object", hc_body_name(settings->render.body));
     hc_cli_text(cli, "method", hc_cli_tracer_words(settings->rays.method));
     hc_cli_text(cli, "view", hc_view_name(view));
@@ -171,23 +173,24 @@ static void show(hc_cli *cli, const hc_picture *picture)
     hc_cli_number(cli, "rays", (double)f->rays, NULL);
     hc_cli_number(cli, "hits", (double)f->hits, NULL);
     hc_cli_number(cli, "unconverged", (double)f->unconverged, NULL);
-    hc_cli_number(cli, "mean_steps", f->mean_steps, NULL);
+    hc_cli_number(cli, "mean_steps", f->mean_steps / entered, NULL);
     hc_cli_number(cli, "seconds_drawing", f->seconds, NULL);
     if (settings->backend == HC_CLI_GL) {
-        hc_cli_number(cli, "mean_fetches", f->mean_fetches, NULL);
+        hc_cli_number(cli, "mean_fetches", f->mean_fetches / entered, NULL);
     }
     if (view == HC_VIEW_MISSED || view == HC_VIEW_ERROR) {
         hc_cli_number(cli, "lost", (double)f->lost, NULL);
         hc_cli_number(cli, "made_up", (double)f->made_up, NULL);
-        hc_cli_number(cli, "mean_error", f->mean_error, NULL);
+        hc_cli_number(cli, "mean_error", f->mean_error / totals->frames, NULL);
     }
-    if (f->top > 0.0) {
-        hc_cli_number(cli, "top", f->top, NULL);
+    if (picture->figures.top > 0.0) {
+        hc_cli_number(cli, "top", picture->figures.top, NULL);
     }
 }
 
-/* Where there is no OpenGL the CPU draws, as long as it may. */
-static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
+/* Where there is no OpenGL the CPU draws, as long as it may. animation: NULL if nothing moves. */
+static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_cli_animation *animation,
+                      hc_picture *picture)
 {
     hc_cli_settings  *settings = &cli->settings;
     hc_render_options options  = { .view     = settings->render.view,
@@ -199,43 +202,68 @@ static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_picture *pict
     hc_result         result   = hc_render(picture, &relief->scene, &options, &cli->log);
     if (hc_cli_falls_back(cli, result, "draws")) {
         options.backend = HC_BACKEND_CPU;
-        result          = hc_render(picture, &relief->scene, &options, &cli->log);
+        result          = animation != NULL ? hc_cli_animation_to_cpu(animation, cli) : HC_OK;
+        result = result == HC_OK ? hc_render(picture, &relief->scene, &options, &cli->log) : result;
     }
     return result;
 }
 
-static int draw(hc_cli *cli, const hc_cli_relief *relief, hc_picture *picture)
+static hc_result draw_frame(hc_cli *cli, const hc_cli_relief *relief, hc_cli_animation *animation,
+                            hc_picture *picture, int frame)
 {
+    hc_result result = animation != NULL ? hc_cli_animation_frame(animation, cli, frame) : HC_OK;
+    hc_cli_phase(cli, "cast");
+    result = result == HC_OK ? cast(cli, relief, animation, picture) : result;
+    hc_cli_phase(cli, "save");
+    result = result == HC_OK ? hc_cli_save_frame(cli, picture, frame, draw_over) : result;
+    hc_cli_phase(cli, NULL);
+    return result;
+}
+
+static int draw(hc_cli *cli, const hc_cli_relief *relief, hc_cli_animation *animation,
+                hc_picture *picture)
+{
+    hc_cli_totals totals = { .frames = 0 };
     if (!hc_cli_take_picture(picture, cli->settings.render.depth_out != NULL)) {
         return hc_cli_fail_memory(cli);
     }
-    hc_cli_phase(cli, "cast");
-    hc_result result = cast(cli, relief, picture);
-    hc_cli_phase(cli, "save");
-    result = result == HC_OK ? hc_cli_save_drawing(cli, picture, cli->settings.out,
-                                                   cli->settings.render.depth_out, draw_over)
-                             : result;
-    hc_cli_phase(cli, NULL);
-    if (result == HC_OK) {
-        show(cli, picture);
+    for (int i = 0; i == 0 || i < cli->settings.frames; i++) {
+        const hc_result result = draw_frame(cli, relief, animation, picture, i);
+        if (result != HC_OK) {
+            return hc_cli_stop_frames(cli, result, i);
+        }
+        hc_cli_add_figures(&totals, &picture->figures);
     }
-    return result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
+    show(cli, picture, &totals);
+    return HC_CLI_DONE;
+}
+
+static int draw_moving(hc_cli *cli, hc_cli_relief *relief, hc_picture *picture)
+{
+    hc_cli_animation animation;
+    int              code = hc_cli_animation_begin(&animation, cli, relief);
+    if (code == HC_CLI_DONE) {
+        code = draw(cli, relief, &animation, picture);
+    }
+    hc_cli_animation_end(&animation);
+    return code;
 }
 
 int hc_cli_run_render(hc_cli *cli)
 {
     const hc_cli_size size    = cli->settings.size;
+    const bool        moves   = cli->settings.render.motion != HC_CLI_STILL;
     hc_picture        picture = { .width  = size.width > 0 ? size.width : WIDTH,
                                   .height = size.width > 0 ? size.height : HEIGHT };
     hc_cli_relief     relief;
     int               code = check_meaning(cli);
-    code                   = code == HC_CLI_DONE ? check_outputs(cli) : code;
+    code                   = code == HC_CLI_DONE ? hc_cli_check_frames(cli) : code;
     if (code != HC_CLI_DONE) {
         return code;
     }
     code = hc_cli_relief_load(&relief, cli, cli->settings.paths[1]);
     if (code == HC_CLI_DONE) {
-        code = draw(cli, &relief, &picture);
+        code = moves ? draw_moving(cli, &relief, &picture) : draw(cli, &relief, NULL, &picture);
     }
     free(picture.depth);
     free(picture.rgb);

@@ -1,11 +1,9 @@
 /* heightcast render terrain: a field as a landscape, into a picture or many. */
 #include "commands.h"
-#include "drawing.h"
 #include "figures.h"
-#include "interrupt.h"
+#include "frames.h"
 #include "landscape.h"
 #include "options.h"
-#include "output.h"
 #include "route.h"
 #include "words.h"
 
@@ -13,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 1280, HEIGHT = 720, SIDE_MAX = 65536, NAME_MAX = 4096 };
+enum { WIDTH = 1280, HEIGHT = 720, SIDE_MAX = 65536 };
 
 /* ---- choices that make no sense ---- */
 
@@ -65,58 +63,7 @@ static int check_meaning(hc_cli *cli)
     return HC_CLI_DONE;
 }
 
-static int check_output(hc_cli *cli, const char *option, const char *path, const char *endings)
-{
-    const int frames = cli->settings.terrain.frames;
-    int       code   = HC_CLI_DONE;
-    for (int i = 0; code == HC_CLI_DONE && (i == 0 || i < frames); i++) {
-        char name[NAME_MAX];
-        if (!hc_cli_frame_name(name, sizeof name, cli, path, i)) {
-            return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s: the name is too long", path);
-        }
-        code = hc_cli_check_ending(cli, option, name, endings);
-    }
-    return code;
-}
-
-static int check_outputs(hc_cli *cli)
-{
-    const hc_cli_settings *settings = &cli->settings;
-    if (settings->out == NULL) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "needs --out FILE.png");
-    }
-    int code = check_output(cli, "out", settings->out, ".png, .exr");
-    if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
-        code = check_output(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
-    }
-    return code;
-}
-
 /* ---- figures ---- */
-
-/* Of one picture, or summed over many. */
-typedef struct totals {
-    int               frames;
-    hc_render_figures sum;
-} totals;
-
-static void add_figures(totals *t, const hc_render_figures *f)
-{
-    t->frames++;
-    t->sum.rays += f->rays;
-    t->sum.hits += f->hits;
-    t->sum.entered += f->entered;
-    t->sum.unconverged += f->unconverged;
-    t->sum.lost += f->lost;
-    t->sum.made_up += f->made_up;
-    t->sum.mean_steps += f->mean_steps * (double)f->entered;
-    t->sum.mean_fetches += f->mean_fetches * (double)f->entered;
-    t->sum.mean_crossings += f->mean_crossings * (double)f->entered;
-    t->sum.seconds += f->seconds;
-    for (int i = 0; i < 3; i++) {
-        t->sum.within[i] += f->within[i] * (double)f->entered;
-    }
-}
 
 static void show_rays(hc_cli *cli, const hc_render_figures *f, hc_view view)
 {
@@ -140,7 +87,7 @@ static void show_rays(hc_cli *cli, const hc_render_figures *f, hc_view view)
 }
 
 static void show(hc_cli *cli, const hc_terrain *terrain, const hc_picture *picture, hc_view view,
-                 const totals *t)
+                 const hc_cli_totals *t)
 {
     const hc_cli_settings *settings = &cli->settings;
     const hc_placement     place    = hc_terrain_placement(terrain);
@@ -153,7 +100,7 @@ static void show(hc_cli *cli, const hc_terrain *terrain, const hc_picture *pictu
         hc_cli_number(cli, "tiles", settings->path_count, NULL);
     }
     hc_cli_show_size(cli, picture->width, picture->height);
-    if (settings->terrain.frames > 0) {
+    if (settings->frames > 0) {
         hc_cli_number(cli, "frames", t->frames, NULL);
     }
     hc_cli_number(cli, "spacing_x", place.spacing_x, NULL);
@@ -185,32 +132,10 @@ static void no_legend(hc_cli_canvas *canvas, const hc_cli *cli, const hc_picture
     (void)picture;
 }
 
-static hc_result save_frame(hc_cli *cli, const hc_picture *picture, int frame)
+static int draw_frames(hc_cli *cli, hc_cli_totals *t, hc_picture *picture,
+                       const hc_terrain *terrain, const hc_cli_route *route)
 {
-    const hc_cli_settings *settings = &cli->settings;
-    const char            *depths   = settings->render.depth_out;
-    char                   out[NAME_MAX], depth_out[NAME_MAX];
-    (void)hc_cli_frame_name(out, sizeof out, cli, settings->out, frame); /* they were checked */
-    if (depths != NULL) {
-        (void)hc_cli_frame_name(depth_out, sizeof depth_out, cli, depths, frame);
-    }
-    return hc_cli_save_drawing(cli, picture, out, depths != NULL ? depth_out : NULL, no_legend);
-}
-
-static int stop(hc_cli *cli, hc_result result, int frame)
-{
-    const int number = hc_cli_caught_signal();
-    if (number != 0 && frame > 0) {
-        return hc_cli_fail(cli, 128 + number, "stopped by a signal after %d frames of %d", frame,
-                           cli->settings.terrain.frames);
-    }
-    return hc_cli_fail_result(cli, result);
-}
-
-static int draw_frames(hc_cli *cli, totals *t, hc_picture *picture, const hc_terrain *terrain,
-                       const hc_cli_route *route)
-{
-    const int frames = cli->settings.terrain.frames;
+    const int frames = cli->settings.frames;
     for (int i = 0; i == 0 || i < frames; i++) {
         hc_camera camera;
         hc_cli_route_camera(&camera, route, cli, terrain, i);
@@ -220,12 +145,12 @@ static int draw_frames(hc_cli *cli, totals *t, hc_picture *picture, const hc_ter
         hc_cli_phase(cli, "cast");
         hc_result result = hc_terrain_draw(picture, terrain, &camera, &cli->log);
         hc_cli_phase(cli, "save");
-        result = result == HC_OK ? save_frame(cli, picture, i) : result;
+        result = result == HC_OK ? hc_cli_save_frame(cli, picture, i, no_legend) : result;
         hc_cli_phase(cli, NULL);
         if (result != HC_OK) {
-            return stop(cli, result, i);
+            return hc_cli_stop_frames(cli, result, i);
         }
-        add_figures(t, &picture->figures);
+        hc_cli_add_figures(t, &picture->figures);
     }
     return HC_CLI_DONE;
 }
@@ -254,7 +179,7 @@ static int draw(hc_cli *cli, const hc_cli_landscape *landscape, const hc_cli_rou
     const hc_cli_size size    = cli->settings.size;
     hc_picture        picture = { .width  = size.width > 0 ? size.width : WIDTH,
                                   .height = size.width > 0 ? size.height : HEIGHT };
-    totals            t       = { .frames = 0 };
+    hc_cli_totals     t       = { .frames = 0 };
     hc_terrain       *terrain = NULL;
     const hc_result   result  = make(&terrain, cli, &landscape->scene);
     int               code    = result == HC_OK ? HC_CLI_DONE : hc_cli_fail_result(cli, result);
@@ -295,7 +220,7 @@ int hc_cli_run_terrain(hc_cli *cli)
     if (cli->settings.backend == HC_CLI_GL && !hc_cli_given(&cli->settings, "method")) {
         cli->settings.rays.method = HC_TRACE_MAXMIP; /* fast is the CPU's alone */
     }
-    code = code == HC_CLI_DONE ? check_outputs(cli) : code;
+    code = code == HC_CLI_DONE ? hc_cli_check_frames(cli) : code;
     if (code != HC_CLI_DONE) {
         return code;
     }

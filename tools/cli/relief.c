@@ -31,7 +31,7 @@ static int load_ground(hc_cli_relief *relief, hc_cli *cli, const char *path)
 {
     const hc_trace_needs needs = hc_trace_method_needs((hc_trace_method)cli->settings.rays.method);
     int                  code  = hc_cli_scene_load(&relief->ground, cli, path);
-    if (code == HC_CLI_DONE) {
+    if (code == HC_CLI_DONE && cli->settings.render.motion == HC_CLI_STILL) {
         code = hc_cli_scene_ratios(&relief->ground, cli, needs);
     }
     return code;
@@ -54,14 +54,19 @@ static void by_height(float rgb[3], float height)
     }
 }
 
-static float *paint(const hc_field *field)
+static void paint(float *rgb, const hc_field *field)
 {
     const size_t count = (size_t)field->width * (size_t)field->height;
-    float       *rgb   = malloc(count * 3 * sizeof *rgb);
-    for (size_t i = 0; rgb != NULL && i < count; i++) {
+    for (size_t i = 0; i < count; i++) {
         by_height(rgb + 3 * i, field->heights[i]);
     }
-    return rgb;
+}
+
+void hc_cli_relief_repaint(hc_cli_relief *relief)
+{
+    if (relief->by_height) {
+        paint(relief->albedo, &relief->scene.relief.field);
+    }
 }
 
 static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
@@ -77,9 +82,15 @@ static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
     if (cli->settings.render.albedo != NULL) {
         code = hc_cli_load_albedo(cli, &relief->albedo, &m->albedo_width, &m->albedo_height);
     } else {
-        relief->albedo   = paint(&relief->ground.field);
-        m->albedo_width  = relief->ground.field.width;
-        m->albedo_height = relief->ground.field.height;
+        const hc_field *field = &relief->ground.field;
+        relief->albedo =
+            malloc((size_t)field->width * (size_t)field->height * 3 * sizeof *relief->albedo);
+        relief->by_height = relief->albedo != NULL;
+        m->albedo_width   = field->width;
+        m->albedo_height  = field->height;
+        if (relief->by_height) {
+            paint(relief->albedo, field);
+        }
     }
     m->albedo = relief->albedo;
     return code == HC_CLI_DONE && m->albedo == NULL ? hc_cli_fail_memory(cli) : code;

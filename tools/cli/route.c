@@ -86,7 +86,7 @@ void hc_cli_route_free(hc_cli_route *route)
 /* A tour ends where it begins, a path does not. */
 static double moment_of(const hc_cli_route *route, const hc_cli *cli, int frame)
 {
-    const int frames = cli->settings.terrain.frames;
+    const int frames = cli->settings.frames;
     if (frames == 0) {
         return cli->settings.terrain.moment;
     }
@@ -132,17 +132,4 @@ void hc_cli_route_camera(hc_camera *camera, const hc_cli_route *route, const hc_
         camera->fov = settings->rays.fov;
     }
     camera->samples = settings->render.samples > 0 ? settings->render.samples : SAMPLES;
-}
-
-/* ---- names ----------------------------------------------------------------------------------- */
-
-bool hc_cli_frame_name(char *name, size_t size, const hc_cli *cli, const char *path, int frame)
-{
-    const char *dot   = strrchr(path, '.');
-    const char *rest  = dot != NULL ? dot : path + strlen(path);
-    const int   stem  = (int)(rest - path);
-    const bool  many  = cli->settings.terrain.frames > 0;
-    const int   wrote = many ? snprintf(name, size, "%.*s_%04d%s", stem, path, frame, rest)
-                             : snprintf(name, size, "%s", path);
-    return wrote >= 0 && (size_t)wrote < size;
 }

@@ -20,8 +20,4 @@ void hc_cli_route_free(hc_cli_route *route);
 void hc_cli_route_camera(hc_camera *camera, const hc_cli_route *route, const hc_cli *cli,
                          const hc_terrain *terrain, int frame);
 
-/* Name of a frame's file: that of the command line, with a number if there are many. False if it is
- * too long. */
-bool hc_cli_frame_name(char *name, size_t size, const hc_cli *cli, const char *path, int frame);
-
 #endif

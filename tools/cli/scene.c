@@ -238,15 +238,20 @@ static int to_cells(hc_cli_scene *scene, hc_cli *cli, size_t count)
     return HC_CLI_DONE;
 }
 
+hc_cones hc_cli_scene_cones(const hc_cli_scene *scene, const hc_cli *cli, hc_trace_needs needs)
+{
+    return needs != HC_NEEDS_CELL_RATIOS           ? HC_CONES_L2
+           : hc_cli_scene_holds(scene, needs)      ? scene->map.info.cones
+           : hc_cli_given(&cli->settings, "cones") ? cli->settings.map.cone.cones
+                                                   : HC_CONES_QUAD;
+}
+
 int hc_cli_scene_ratios(hc_cli_scene *scene, hc_cli *cli, hc_trace_needs needs)
 {
     if (needs == HC_NEEDS_NOTHING || needs == scene->has) {
         return HC_CLI_DONE;
     }
-    scene->cones       = needs != HC_NEEDS_CELL_RATIOS           ? HC_CONES_L2
-                         : hc_cli_scene_holds(scene, needs)      ? scene->map.info.cones
-                         : hc_cli_given(&cli->settings, "cones") ? cli->settings.map.cone.cones
-                                                                 : HC_CONES_QUAD;
+    scene->cones       = hc_cli_scene_cones(scene, cli, needs);
     const size_t count = (size_t)scene->field.width * (size_t)scene->field.height
                          * (size_t)hc_cones_channels(scene->cones);
     free(scene->ratios);

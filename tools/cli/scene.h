@@ -25,6 +25,8 @@ hc_result hc_cli_load_heights(hc_cli *cli, hc_field *field, const hc_map_info *i
 
 /* True if the scene's map holds the ratios for `needs`. */
 bool hc_cli_scene_holds(const hc_cli_scene *scene, hc_trace_needs needs);
+/* Cones of the ratios for `needs`: the map's, those of --cones, or those that suit. */
+hc_cones hc_cli_scene_cones(const hc_cli_scene *scene, const hc_cli *cli, hc_trace_needs needs);
 /* Put the ratios for `needs` into scene->ratios: the map's, or baked. Returns the exit code. */
 int hc_cli_scene_ratios(hc_cli_scene *scene, hc_cli *cli, hc_trace_needs needs);
 

@@ -41,6 +41,9 @@ typedef struct hc_cli_rays {
 /* How a bracket between above and below the surface is refined. */
 typedef enum hc_cli_refine { HC_CLI_BINARY = 0, HC_CLI_SECANT, HC_CLI_NO_REFINEMENT } hc_cli_refine;
 
+/* How heights change from frame to frame. */
+typedef enum hc_cli_motion { HC_CLI_STILL = 0, HC_CLI_WAVES, HC_CLI_ERODE } hc_cli_motion;
+
 /* render */
 typedef struct hc_cli_render {
     hc_body       body;
@@ -53,6 +56,7 @@ typedef struct hc_cli_render {
     double        fade[2], lod[2];
     int           lod_steps;
     double        camera[3], light[3], lamp[3], colour[3];
+    hc_cli_motion motion;
     int           shadows; /* 0: on, 1: off */
     const char   *albedo, *depth_out;
 } hc_cli_render;
@@ -65,7 +69,6 @@ typedef struct hc_cli_terrain {
     double      offset[3], moment;
     bool        blocky;
     int         shadow_map;
-    int         frames; /* 0: one picture, at `moment` */
     const char *path, *objects;
     hc_cli_size tiles; /* columns and rows */
     hc_seams    seams;
@@ -92,6 +95,7 @@ typedef struct hc_cli_settings {
     const char     *report; /* bench: file for --json, "-" is standard output */
     const char     *csv;
     hc_cli_rays     rays;
+    int             frames; /* of pictures; 0: one. Terrain: at `moment` */
     hc_cli_render   render;
     hc_cli_terrain  terrain;
     bool            json, quiet, verbose, help, version;

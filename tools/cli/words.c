@@ -137,6 +137,12 @@ const char *hc_cli_ground_words(int index)
     return index < 4 ? hc_ground_name(grounds[index]) : NULL;
 }
 
+const char *hc_cli_motion_words(int index)
+{
+    static const char *const words[] = { "none", "waves", "erode", NULL };
+    return words[index];
+}
+
 const char *hc_cli_tour_words(int index)
 {
     return hc_tour_name((hc_tour)index);
