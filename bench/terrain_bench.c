@@ -8,6 +8,9 @@
 
 enum { WIDTH = 480, HEIGHT = 270, REPEAT = 3, FRAMES = 5, TOURS = 2 };
 
+/* In the order of hc_polygons, but none. */
+static const char *const polygon_names[2] = { "mesh", "lod" };
+
 static const hc_tour tours[TOURS] = { HC_TOUR_FLY, HC_TOUR_WALK };
 
 typedef struct job {
@@ -15,6 +18,7 @@ typedef struct job {
     const char                     *name; /* of the field */
     hc_field                        field;
     hc_trace_method                 method;
+    hc_polygons                     polygons;
     hc_cones                        cones;
     float                          *ratios;
     hc_picture                      picture;
@@ -23,7 +27,10 @@ typedef struct job {
 
 const char *hc_bench_terrain_method(int index)
 {
-    return index < hc_trace_method_count() ? hc_trace_method_name((hc_trace_method)index) : NULL;
+    const int methods = hc_trace_method_count();
+    return index < methods       ? hc_trace_method_name((hc_trace_method)index)
+           : index < methods + 2 ? polygon_names[index - methods]
+                                 : NULL;
 }
 
 static double now(void)
@@ -84,7 +91,9 @@ static hc_trace_options trace_of(const job *j)
 
 static hc_result make(hc_terrain **terrain, const job *j, hc_view view)
 {
-    const hc_terrain_scene  scene = { .field = j->field, .trace = trace_of(j), .no_shadows = true };
+    const hc_terrain_scene scene = {
+        .field = j->field, .trace = trace_of(j), .polygons = j->polygons, .no_shadows = true
+    };
     const hc_render_options options = { .view    = view,
                                         .backend = j->options->backend,
                                         .threads = j->options->threads };
@@ -158,6 +167,16 @@ static hc_result judge_tours(hc_bench_tour *found[TOURS], job *j)
 
 /* ---- all of them ----------------------------------------------------------------------------- */
 
+/* Polygons are drawn from the heights; what says how, a 100th of them, does not count. */
+static double bytes_held(const job *j)
+{
+    const hc_trace_options trace   = trace_of(j);
+    const size_t           samples = (size_t)j->field.width * (size_t)j->field.height;
+    const double           tracer  = (double)hc_tracer_bytes(&j->field, &trace);
+    return (double)(sizeof(float) * (samples + ratio_count(j)))
+           + (j->polygons == HC_POLYGONS_NONE ? tracer : 0.0);
+}
+
 static hc_result measure_ready(hc_bench_terrain_row *row, job *j)
 {
     hc_bench_tour *found[TOURS] = { &row->fly, &row->walk };
@@ -167,23 +186,23 @@ static hc_result measure_ready(hc_bench_terrain_row *row, job *j)
     result                      = result == HC_OK ? make(&terrain, j, HC_VIEW_SHADED) : result;
     row->seconds                = now() - start;
     if (result == HC_OK) {
-        const hc_trace_options trace = trace_of(j);
-        const size_t           held  = (size_t)j->field.width * (size_t)j->field.height;
-        row->bytes                   = (double)(sizeof(float) * (held + ratio_count(j)))
-                     + (double)hc_tracer_bytes(&j->field, &trace);
-        result = time_tours(found, j, terrain, row->runs);
+        row->bytes = bytes_held(j);
+        result     = time_tours(found, j, terrain, row->runs);
     }
     hc_terrain_destroy(terrain);
     return result == HC_OK ? judge_tours(found, j) : result;
 }
 
-static hc_trace_method method_named(const char *name)
+static void choose_method(job *j, const char *name)
 {
-    int method = 0;
-    while (strcmp(hc_trace_method_name((hc_trace_method)method), name) != 0) {
-        method++;
+    const int methods = hc_trace_method_count();
+    int       index   = 0;
+    while (strcmp(hc_bench_terrain_method(index), name) != 0) {
+        index++;
     }
-    return (hc_trace_method)method;
+    j->method = index < methods ? (hc_trace_method)index : HC_TRACE_MAXMIP;
+    j->polygons =
+        index < methods ? HC_POLYGONS_NONE : (hc_polygons)(HC_POLYGONS_FULL + index - methods);
 }
 
 static hc_result measure_method(job *j, const char *name)
@@ -193,8 +212,8 @@ static hc_result measure_method(job *j, const char *name)
                                  .method = name,
                                  .runs   = j->options->repeat > 0 ? j->options->repeat : REPEAT,
                                  .frames = FRAMES };
-    j->method                = method_named(name);
-    const hc_result result   = measure_ready(&row, j);
+    choose_method(j, name);
+    const hc_result result = measure_ready(&row, j);
     free(j->ratios);
     j->ratios = NULL;
     if (result == HC_OK) {
@@ -205,13 +224,14 @@ static hc_result measure_method(job *j, const char *name)
 
 static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
 {
-    static const char *const usual[] = { "fast", "maxmip", "safe", "cone-loop" };
-    const int                without = j->options->backend == HC_BACKEND_GL ? 1 : 0; /* fast */
-    const bool               all     = j->options->method_count == 0;
-    const char *const       *names   = all ? usual + without : j->options->methods;
-    const int                count   = all ? 4 - without : j->options->method_count;
-    float                   *heights = malloc((size_t)side * (size_t)side * sizeof *heights);
-    hc_result                result  = HC_ERROR_MEMORY;
+    static const char *const usual[] = { "fast", "maxmip", "safe", "cone-loop", "mesh", "lod" };
+    /* fast is the CPU's alone, polygons are GL's. */
+    const bool         gl      = j->options->backend == HC_BACKEND_GL;
+    const bool         all     = j->options->method_count == 0;
+    const char *const *names   = !all ? j->options->methods : gl ? usual + 1 : usual;
+    const int          count   = !all ? j->options->method_count : gl ? 5 : 4;
+    float             *heights = malloc((size_t)side * (size_t)side * sizeof *heights);
+    hc_result          result  = HC_ERROR_MEMORY;
     if (heights != NULL) {
         result = hc_bench_fill_ground(heights, side, ground, j->options->seed, j->log);
     }

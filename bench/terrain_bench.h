@@ -30,12 +30,12 @@ typedef struct hc_bench_terrain_options {
     const int             *sides;
     int                    side_count;
     const char *const     *methods;
-    int                    method_count;  /* 0: fast (not gl), maxmip, safe, cone-loop */
-    int                    width, height; /* of the frame; 0: 480 x 270               */
-    hc_backend             backend;
-    uint64_t               seed;
-    int                    repeat;  /* 0: 3 */
-    int                    threads; /* 0: one per core */
+    int        method_count;  /* 0: fast (cpu), maxmip, safe, cone-loop, mesh and lod (gl) */
+    int        width, height; /* of the frame; 0: 480 x 270               */
+    hc_backend backend;
+    uint64_t   seed;
+    int        repeat;  /* 0: 3 */
+    int        threads; /* 0: one per core */
     bool (*stop)(void);
     void (*row_done)(void *user, const hc_bench_terrain_row *row);
     void *user;

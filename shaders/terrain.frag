@@ -4,7 +4,8 @@
  *
  * It shows how to use those marchers for terrain: any eye (main), the sun's shadow (in_shadow), and
  * triangles in the same depth buffer, lit by the same sun: bodies.vert puts them there, with this
- * file behind #define BODIES. All is in texture space, where the CPU has put the eye; t of a
+ * file behind #define BODIES. ground.vert draws the ground itself as triangles, with this file behind
+ * #define POLYGONS, and the sky around them is its own behind #define SKY. All is in texture space, where the CPU has put the eye; t of a
  * ray is the distance in the world, since the field's place is affine. */
 
 /* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
@@ -422,6 +423,9 @@ float depth_of(float along)
 /* The field has no end below, its picture does. */
 hc_hit look(vec3 place, vec3 along)
 {
+#ifdef SKY
+    return hc_hit(HC_MISS, place, 0, 0);
+#endif
     hc_hit hit = hc_nearest(place, along, 1e30);
     if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
         hit.t = HC_MISS;
@@ -451,6 +455,38 @@ void main(void)
     o_light      = vec4(colour, distance_);
     o_normal     = vec4(normal, place.z);
     o_counts     = vec4(0.0);
+    gl_FragDepth = depth_of(along);
+}
+
+#elif defined(POLYGONS)
+
+/* Of the ground's triangles: from the eye, in the world; in texture space. */
+in vec3 v_from_eye, v_place;
+
+/* Triangles lie beside the patches that throw shadows; light is that of the patch. */
+vec3 on_patch(vec3 place)
+{
+    vec2     at     = clamp(place.xy * hc_steps - hc_zero, hc_low(), hc_high());
+    vec2     f      = at - floor(at);
+    hc_patch patch_ = hc_patch_of(ivec2(floor(at)));
+    return vec3(place.xy, patch_.base + dot(f, patch_.slope) + f.x * f.y * patch_.twist);
+}
+
+void main(void)
+{
+    float along     = dot(v_from_eye, u_forward);
+    vec3  direction = u_orthographic ? u_forward : normalize(v_from_eye);
+    vec3  shift     = u_orthographic ? v_from_eye - along * u_forward : vec3(0.0);
+    float distance_ = u_orthographic ? along : length(v_from_eye);
+    if (along < 0.0) {
+        discard;
+    }
+    hc_hit hit   = hc_hit(distance_, on_patch(v_place), 0, 0);
+    vec3 normal  = normal_at(hit, direction * u_scale);
+    vec3 colour  = see_ground(hit, normal, direction, v_from_eye, u_haze_top - shift.z);
+    o_light      = vec4(colour, distance_);
+    o_normal     = vec4(normal, v_place.z);
+    o_counts     = vec4(0.0, 0.0, 1.0, 0.0);
     gl_FragDepth = depth_of(along);
 }
 

@@ -41,6 +41,16 @@ typedef enum hc_ground {
 } hc_ground;
 HC_API const char *hc_ground_name(hc_ground ground); /* as above; NULL beyond the last. Static */
 
+/* Triangles instead of rays, as what rays are measured against: gl only, without objects and
+ * without the block's walls; shadows are rays' as ever.
+ * none   rays
+ * full   two triangles for each square of four samples
+ * lod    blocks of 32 x 32 squares that the eye sees, each as coarse as it can be without moving a
+ *        sample by more than a pixel (de Boer 2000) */
+typedef enum hc_polygons { HC_POLYGONS_NONE = 0, HC_POLYGONS_FULL, HC_POLYGONS_LOD } hc_polygons;
+HC_API const char *hc_polygons_name(
+    hc_polygons polygons); /* as above; NULL beyond the last. Static */
+
 /* A mesh in the landscape. It and the terrain hide each other, and throw shadows on each other. */
 typedef struct hc_object {
     const hc_mesh *mesh;      /* read by hc_terrain_create only               */
@@ -75,6 +85,8 @@ typedef struct hc_terrain_scene {
      * patch. */
     bool blocky;
 
+    hc_polygons polygons;
+
     const hc_object *objects; /* object_count of them, read by hc_terrain_create only */
     int              object_count;
 
@@ -97,7 +109,7 @@ typedef struct hc_terrain hc_terrain;
  *          zero: shaded, by the CPU
  *
  * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render,
- * and HC_ERROR_UNSUPPORTED for steps and open sides. */
+ * and HC_ERROR_UNSUPPORTED for steps and open sides; polygons: where they cannot be. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);

@@ -281,6 +281,89 @@ static void nothing_is_lost(void **state)
     }
 }
 
+/* ---- polygons -------------------------------------------------------------------------------- */
+
+/* Where patches are flat, triangles are the patches. */
+static void flat_patches_are_their_triangles(void **state)
+{
+    (void)state;
+    static float     flat[SIDE * SIDE];
+    hc_terrain_scene scene   = scene_of(HC_TRACE_MAXMIP);
+    scene.field.heights      = flat;
+    scene.field.registration = HC_GRID; /* texels' outermost halves have no triangles */
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        flat[i] = 0.5F * (heights[i % SIDE] + heights[i / SIDE * SIDE]);
+    }
+    hc_terrain *by_rays = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    scene.polygons      = HC_POLYGONS_FULL;
+    hc_terrain *by_mesh = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    for (int tour = HC_TOUR_FLY; tour <= HC_TOUR_UP; tour++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, by_rays, (hc_tour)tour, 0.3);
+        draw(&cpu, by_rays, &camera);
+        draw(&gl, by_mesh, &camera);
+        if (count_odd() > ODD_MAX) {
+            fail_msg("camera %d: %d pixels differ", tour, count_odd());
+        }
+        assert_true(gl.picture.figures.hits > 500);
+        assert_true(cpu.picture.figures.mean_crossings > 1.0);
+        assert_true(gl.picture.figures.mean_crossings == 0.0);
+    }
+    hc_terrain_destroy(by_rays);
+    hc_terrain_destroy(by_mesh);
+}
+
+/* No pixel of the ground becomes one of the sky, but for those beside a silhouette. */
+static void coarse_blocks_leave_no_gaps(void **state)
+{
+    (void)state;
+    hc_terrain_scene scene = scene_of(HC_TRACE_MAXMIP);
+    scene.no_shadows       = true;
+    scene.polygons         = HC_POLYGONS_FULL;
+    hc_terrain *full       = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    scene.polygons         = HC_POLYGONS_LOD;
+    hc_terrain *lod        = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    int         changed    = 0;
+    for (int frame = 0; frame < 8; frame++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, full, HC_TOUR_ORBIT, frame / 8.0);
+        camera.eye[2] *= frame % 2 == 0 ? 1.0 : 3.0; /* coarser */
+        draw(&cpu, full, &camera);
+        draw(&gl, lod, &camera);
+        changed += memcmp(cpu.depth, gl.depth, sizeof gl.depth) != 0 ? 1 : 0;
+        for (int i = WIDE + 1; i < PIXELS - WIDE - 1; i++) {
+            bool within = true;
+            for (int k = 0; k < 9; k++) {
+                within = within && isfinite(cpu.depth[i + (k / 3 - 1) * WIDE + k % 3 - 1]);
+            }
+            assert_true(!within || isfinite(gl.depth[i]));
+        }
+    }
+    assert_true(changed > 0);
+    hc_terrain_destroy(full);
+    hc_terrain_destroy(lod);
+}
+
+static void polygons_that_cannot_be_are_refused(void **state)
+{
+    (void)state;
+    const hc_render_options by_gl   = { .backend = HC_BACKEND_GL };
+    const hc_object         object  = { .size = 1.0 };
+    hc_terrain             *terrain = NULL;
+    hc_terrain_scene        scene   = scene_of(HC_TRACE_MAXMIP);
+    hc_log                  log     = { .text = "" };
+    scene.polygons                  = HC_POLYGONS_LOD;
+    assert_int_equal(hc_terrain_create(&terrain, &scene, NULL, &log), HC_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "scene.polygons is lod; only gl"));
+    scene.objects      = &object;
+    scene.object_count = 1;
+    assert_int_equal(hc_terrain_create(&terrain, &scene, &by_gl, &log), HC_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "objects"));
+    scene.polygons = (hc_polygons)3;
+    assert_int_equal(hc_terrain_create(&terrain, &scene, &by_gl, &log), HC_ERROR_ARGUMENT);
+    assert_null(hc_polygons_name(scene.polygons));
+}
+
 /* ---- terrains beside each other -------------------------------------------------------------- */
 
 /* Each has a context of its own, and pictures may change their size. */
@@ -334,6 +417,9 @@ int main(void)
         cmocka_unit_test(objects),
         cmocka_unit_test(depths_agree),
         cmocka_unit_test(nothing_is_lost),
+        cmocka_unit_test(flat_patches_are_their_triangles),
+        cmocka_unit_test(coarse_blocks_leave_no_gaps),
+        cmocka_unit_test(polygons_that_cannot_be_are_refused),
         cmocka_unit_test(terrains_take_turns),
         cmocka_unit_test(what_gl_cannot_do_is_said),
     };

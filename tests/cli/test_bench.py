@@ -6,7 +6,7 @@ import signal
 import subprocess
 import time
 
-from program import ELEVATIONS, INPUT_OUTPUT, PROGRAM, USAGE, Case, main
+from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, PROGRAM, USAGE, Case, main
 
 SMALL = ["--sizes", "16,32", "--repeat", "2"]
 
@@ -192,6 +192,22 @@ class Bench(Case):
             lines = list(csv.DictReader(file))
         self.assertEqual([float(line["bytes"]) for line in lines],
                          [row["bytes"] for row in report["rows"]])
+
+    def test_terrain_by_opengl(self):
+        if not self.has_opengl():
+            self.skipTest("no OpenGL here")
+        report = self.terrain("--sizes", 64, "--backend", "gl")
+        rows = {row["method"]: row for row in report["rows"]}
+        self.assertEqual(set(rows), {"maxmip", "safe", "cone-loop", "mesh", "lod"})
+        for method in "mesh", "lod":
+            self.assertEqual(rows[method]["bytes"], 4 * 64 * 64)
+            self.assertEqual(rows[method]["fly"]["mean_crossings"], 0)
+            self.assertGreater(rows[method]["walk"]["frames_per_second"], 0)
+        self.assertGreater(rows["maxmip"]["fly"]["mean_crossings"], 1)
+
+    def test_terrain_polygons_need_opengl(self):
+        self.refused("bench", "terrain", "--sizes", 16, "--methods", "mesh", code=BAD_FILE,
+                     says="only gl")
 
     def test_terrain_of_a_file(self):
         row, = self.terrain("--field", ELEVATIONS, "--sizes", 48, "--methods", "linear")["rows"]

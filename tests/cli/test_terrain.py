@@ -191,6 +191,17 @@ class Terrain(Case):
             self.assertEqual(figures[key], whole[key], key)
         self.assertEqual(figures["tiles"], 6)
 
+    def test_polygons(self):
+        self.refuse("--out", "a.png", "--polygons", "full", code=BAD_FILE, says="only gl")
+        figures = self.render("--backend", "gl", "--method", "maxmip")
+        if figures["backend"] != "gl":
+            self.skipTest("no OpenGL here")
+        rays = figures["hits"]
+        for polygons in ["full", "lod"]:
+            figures = self.render("--backend", "gl", "--method", "maxmip", "--polygons", polygons)
+            self.assertAlmostEqual(figures["hits"], rays, delta=0.02 * rays)
+            self.assertEqual(figures["mean_fetches"], 0)
+
     def test_tiles_that_do_not_fit(self):
         tiles = self.cut("t", 2, 2, 0)
         out = ["--out", "a.png"]

@@ -47,7 +47,7 @@ fragment() {
 }
 
 for language in core es; do
-    for stage in screen bodies; do
+    for stage in screen bodies ground; do
         { head_of $language && cat "$shaders/$stage.vert"; } >"$folder/$language-$stage.vert"
         check $language-$stage.vert vert
     done
@@ -56,6 +56,8 @@ for language in core es; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag
+        fragment $language-polygons-$method.frag $language "HC_METHOD HC_$method" POLYGONS
+        check $language-polygons-$method.frag frag
         for scene in terrain relief; do
             fragment $language-$scene-$method.frag $language "HC_METHOD HC_$method"
             check $language-$scene-$method.frag frag

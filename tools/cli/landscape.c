@@ -123,6 +123,7 @@ static void choose_scene(hc_cli_landscape *landscape, const hc_cli *cli)
     scene->exaggeration      = (double)settings->terrain.exaggeration;
     scene->ground            = ground_of(settings);
     scene->image             = landscape->image;
+    scene->polygons          = settings->terrain.polygons;
     scene->objects           = landscape->objects.objects;
     scene->object_count      = landscape->objects.count;
     scene->blocky            = settings->terrain.blocky;

@@ -429,8 +429,9 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "methods, and maps such as pyramid, separated by commas",
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
                   "sizes); trace: these casters (default: all that are built in); steps: of fast, "
-                  "safe and maxmip (default: all); terrain: those of render terrain (default: "
-                  "fast,maxmip,safe,cone-loop; gl: without fast)." },
+                  "safe and maxmip (default: all); terrain: those of render terrain, and "
+                  "mesh and lod, its polygons (default: maxmip,safe,cone-loop; cpu: also fast; "
+                  "gl: also mesh,lod)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,

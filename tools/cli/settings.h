@@ -72,6 +72,7 @@ typedef struct hc_cli_terrain {
     const char *path, *objects;
     hc_cli_size tiles; /* columns and rows */
     hc_seams    seams;
+    hc_polygons polygons;
 } hc_cli_terrain;
 
 /* All zero: the defaults, as the library's own option structs have them. */

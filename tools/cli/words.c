@@ -160,6 +160,11 @@ const char *hc_cli_switch_words(int index)
     return words[index];
 }
 
+const char *hc_cli_polygons_words(int index)
+{
+    return hc_polygons_name((hc_polygons)index);
+}
+
 const char *hc_cli_seams_words(int index)
 {
     static const char *const words[] = { "auto", "shared", "apart", NULL };

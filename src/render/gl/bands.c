@@ -1,5 +1,7 @@
 #include "bands.h"
 
+#include "polygons.h"
+
 #include "base/clock.h"
 #include "base/fail.h"
 #include "gl/context.h"
@@ -74,7 +76,7 @@ void hc_bands_free(hc_bands *bands)
 hc_result hc_bands_take_bodies(hc_bands *bands, const hc_gl_bodies *bodies, hc_log *log)
 {
     bands->bodies = *bodies;
-    if (bodies->count == 0) {
+    if (bodies->count == 0 && bodies->ground == NULL) {
         return HC_OK;
     }
     glGenRenderbuffers(1, &bands->depth);
@@ -97,16 +99,22 @@ static void draw_bodies(const hc_bands *bands, const band *b)
     glUseProgram(bands->bodies.program);
     glUniform4f(glGetUniformLocation(bands->bodies.program, "u_window"), 1.0F, (float)scale,
                 (float)right, (float)down);
-    glBindVertexArray(bands->bodies.array);
-    glDrawArrays(GL_TRIANGLES, 0, bands->bodies.count);
+    if (bands->bodies.ground != NULL) {
+        hc_polygons_draw(bands->bodies.ground);
+    } else {
+        glBindVertexArray(bands->bodies.array);
+        glDrawArrays(GL_TRIANGLES, 0, bands->bodies.count);
+    }
     glBindVertexArray(bands->vertices);
 }
 
 static void draw_band(const hc_bands *bands, unsigned program, const band *b)
 {
     glViewport(0, 0, bands->width, b->rows);
-    if (bands->bodies.count > 0) {
+    if (bands->depth != 0) {
         glClear(GL_DEPTH_BUFFER_BIT);
+    }
+    if (bands->depth != 0 && (program == bands->program || bands->bodies.ground == NULL)) {
         draw_bodies(bands, b);
     }
     glUseProgram(program);

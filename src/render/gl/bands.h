@@ -17,6 +17,8 @@ enum { HC_GL_PLANES = 3 };
 typedef struct hc_gl_bodies {
     unsigned program, array; /* array: of vertices */
     int      count;          /* of vertices; 0: there are none */
+    /* The ground, instead of the array; NULL: there is none. */
+    const struct hc_gl_polygons *ground;
 } hc_gl_bodies;
 
 typedef struct hc_bands {

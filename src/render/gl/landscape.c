@@ -2,13 +2,16 @@
 
 #include "../stage.h"
 #include "bands.h"
+#include "polygons.h"
 #include "upload.h"
 
+#include "base/clock.h"
 #include "gl/context.h"
 
 #include <epoxy/gl.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -22,6 +25,8 @@ struct hc_terrain_gl {
     unsigned      program, exact; /* exact: 0 unless the view compares */
     hc_gl_bodies  bodies;
     unsigned      corners; /* of them: a buffer */
+
+    hc_gl_polygons polygons; /* where the scene has them */
 };
 
 /* ---- making -------------------------------------------------------------------------------- */
@@ -178,9 +183,11 @@ static hc_result build(unsigned *program, const hc_terrain *terrain, const char 
     const hc_trace_options *trace = &terrain->scene.trace;
     char                    head[160];
     hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
-    if (strcmp(before, "bodies.vert") == 0) {
-        memcpy(head + strlen(head), "#define BODIES\n", sizeof "#define BODIES\n");
-    }
+    const char *part = strcmp(before, "bodies.vert") == 0                      ? "BODIES"
+                       : strcmp(before, "ground.vert") == 0                    ? "POLYGONS"
+                       : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
+                                                                               : "RAYS";
+    (void)snprintf(head + strlen(head), sizeof head - strlen(head), "#define %s\n", part);
     const hc_result result = hc_upload_program(program, head, before, "terrain.frag", log);
     if (result == HC_OK) {
         glUseProgram(*program);
@@ -194,6 +201,14 @@ static hc_result add_bodies(hc_terrain_gl *gl, const hc_terrain *terrain, hc_log
     hc_result result = build(&gl->bodies.program, terrain, "bodies.vert", false, log);
     result           = result != HC_OK ? result : load_tree(&gl->textures[BODIES], terrain, log);
     return result != HC_OK ? result : load_corners(gl, terrain, log);
+}
+
+static hc_result add_polygons(hc_terrain_gl *gl, const hc_terrain *terrain, hc_log *log)
+{
+    const hc_result result = hc_polygons_make(&gl->polygons, terrain, log);
+    gl->bodies.ground      = &gl->polygons;
+    return result != HC_OK ? result
+                           : build(&gl->bodies.program, terrain, "ground.vert", false, log);
 }
 
 hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
@@ -215,6 +230,9 @@ hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_l
     if (result == HC_OK && terrain->bodies != NULL) {
         result = add_bodies(*gl, terrain, log);
     }
+    if (result == HC_OK && terrain->scene.polygons != HC_POLYGONS_NONE) {
+        result = add_polygons(*gl, terrain, log);
+    }
     return result; /* hc_terrain_destroy frees what there is */
 }
 
@@ -230,6 +248,7 @@ void hc_terrain_gl_free(hc_terrain_gl *gl)
         glDeleteVertexArrays(1, &gl->bodies.array);
         glDeleteBuffers(1, &gl->corners);
         glDeleteTextures(TEXTURES, gl->textures);
+        hc_polygons_free(&gl->polygons);
     }
     hc_gl_close(&gl->context);
     free(gl);
@@ -283,12 +302,20 @@ static hc_result draw(hc_pixel *pixels, double *seconds, const hc_terrain *terra
         glUseProgram(bands->exact);
         set_eye(bands->exact, terrain, eye);
     }
-    if (bands->bodies.count > 0) {
+    if (bands->depth != 0) {
         glUseProgram(bands->bodies.program);
         set_eye(bands->bodies.program, terrain, eye);
     }
+    const double start = hc_clock_now();
+    if (bands->bodies.ground != NULL) {
+        hc_polygons_aim(&terrain->gl->polygons, terrain, eye);
+    }
+    const double aimed = hc_clock_now() - start; /* it is a part of drawing them */
     hc_bands_warm(bands);
-    return hc_bands_draw(pixels, seconds, bands, eye, &terrain->options.progress, add, &j, log);
+    const hc_result result =
+        hc_bands_draw(pixels, seconds, bands, eye, &terrain->options.progress, add, &j, log);
+    *seconds += aimed;
+    return result;
 }
 
 hc_result hc_terrain_gl_draw(hc_pixel *pixels, double *seconds, const hc_terrain *terrain,

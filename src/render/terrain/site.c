@@ -76,6 +76,21 @@ static hc_result check_scene(const hc_terrain_scene *scene, hc_log *log)
     return HC_OK;
 }
 
+static hc_result check_polygons(const hc_terrain *terrain, hc_log *log)
+{
+    const hc_terrain_scene *scene = &terrain->scene;
+    CHECK(check_whole("scene.polygons", (int)scene->polygons, 0, HC_POLYGONS_LOD, log));
+    if (scene->polygons == HC_POLYGONS_NONE) {
+        return HC_OK;
+    }
+    const char *why = terrain->options.backend != HC_BACKEND_GL ? "only gl draws them"
+                      : scene->object_count > 0                 ? "they have no place for objects"
+                                                                : NULL;
+    return why == NULL ? HC_OK
+                       : hc_fail(log, HC_ERROR_UNSUPPORTED, "scene.polygons is %s; %s",
+                                 hc_polygons_name(scene->polygons), why);
+}
+
 static hc_result check_options(const hc_render_options *options, hc_log *log)
 {
     CHECK(check_whole("options.backend", (int)options->backend, 0, HC_BACKEND_GL, log));
@@ -181,6 +196,7 @@ hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
     CHECK(hc_field_check(&scene->field, log));
     CHECK(check_scene(scene, log));
     CHECK(check_options(&terrain->options, log));
+    CHECK(check_polygons(terrain, log));
     hc_trace_options *trace = &terrain->scene.trace;
     if (trace->steps == 0) {
         trace->steps =

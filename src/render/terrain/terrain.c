@@ -32,6 +32,12 @@ const char *hc_tour_name(hc_tour tour)
     return name_of(names, 4, (unsigned)tour);
 }
 
+const char *hc_polygons_name(hc_polygons polygons)
+{
+    static const char *const names[] = { "none", "full", "lod" };
+    return name_of(names, 3, (unsigned)polygons);
+}
+
 /* ---- making -------------------------------------------------------------------------------- */
 
 static hc_result build(hc_terrain *terrain, hc_log *log)
@@ -39,7 +45,10 @@ static hc_result build(hc_terrain *terrain, hc_log *log)
     hc_trace_options trace = terrain->scene.trace;
     trace.placement        = terrain->placement;
     trace.threads          = terrain->options.threads;
-    hc_result result       = hc_tracer_create(&terrain->tracer, &terrain->scene.field, &trace, log);
+    hc_result result       = HC_OK;
+    if (terrain->scene.polygons == HC_POLYGONS_NONE || !terrain->scene.no_shadows) {
+        result = hc_tracer_create(&terrain->tracer, &terrain->scene.field, &trace, log);
+    }
     if (result == HC_OK && hc_view_compares(terrain->options.view)) {
         const hc_trace_options exact = { .method     = HC_TRACE_MAXMIP,
                                          .surface    = trace.surface,
