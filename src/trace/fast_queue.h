@@ -1,6 +1,7 @@
 /* The work of one call: the rays and their answers, those that are ready for lanes, and the lanes.
  *
- * A ray that is to be marched on from some t, for whatever reason, is one of those that are left. */
+ * A ray that is to be marched on from some t, for whatever reason, is one of those that are
+ * left. */
 #ifndef HC_TRACE_FAST_QUEUE_H
 #define HC_TRACE_FAST_QUEUE_H
 

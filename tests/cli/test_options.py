@@ -37,7 +37,8 @@ class Options(Case):
         manual = (SOURCE / "docs" / "heightcast.1").read_text().replace("\\-", "-")
         for command in COMMANDS:
             self.assertIn(f"heightcast {command}", manual)
-            for option in re.findall(r"^  (?:-., )?--([a-z-]+)", self.text("help", *command.split()), re.M):
+            shown = self.text("help", *command.split())
+            for option in re.findall(r"^  (?:-., )?--([a-z-]+)", shown, re.M):
                 self.assertRegex(manual, rf"--{option}\b", command)
 
     def test_the_manual_has_no_other_options(self):

@@ -14,11 +14,11 @@ static int read_fields(hc_cli *cli, hc_cli_grounds *in, const char *otherwise)
         const char *name = strrchr(item, '/');
         in->grounds[i]   = (hc_bench_ground){ .name = name == NULL ? item : name + 1 };
         if (strchr(item, '.') != NULL) {
-            hc_load_options load = cli->settings.load;
-            load.normalise.range = HC_RANGE_DATA; /* made fields use all of it, too */
+            hc_load_options load   = cli->settings.load;
+            load.normalise.range   = HC_RANGE_DATA; /* made fields use all of it, too */
             const hc_result result = hc_load_field(&in->tiles[i], item, &load, &cli->log);
-            in->grounds[i].tile = &in->tiles[i];
-            code                = result == HC_OK ? code : hc_cli_fail_result(cli, result);
+            in->grounds[i].tile    = &in->tiles[i];
+            code                   = result == HC_OK ? code : hc_cli_fail_result(cli, result);
         }
     }
     return code;
