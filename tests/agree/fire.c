@@ -64,7 +64,8 @@ static bool about(double a, double b, double slack)
 
 /* For rays that come in through an open side under the raised surface, which may come up from one
  * of the surfaces and not from another: what the reference says on the surface as it is, is right.
- * Something else is wrong only where the moved surfaces agree with that one. */
+ * Something else is wrong only where the moved surfaces agree with that one, and where it is known
+ * that the ray comes in under them: from above the lowered one it may touch any between. */
 static bool excused_under(agree_score *score, const agree_scene *scene, const hc_ray *ray, double t,
                           double first, double last)
 {
@@ -80,9 +81,11 @@ static bool excused_under(agree_score *score, const agree_scene *scene, const hc
     if (about(exact, t, slack)) {
         return true;
     }
-    const bool agreed = about(exact, first, slack) && about(exact, last, slack);
-    score->undecided += agreed ? 0 : 1;
-    return !agreed;
+    const bool agreed  = about(exact, first, slack) && about(exact, last, slack);
+    const bool between = reference(&closed, ray, -1.0, &hit) > side + slack && hit.steps > 1;
+    const bool excused = !agreed || (between && t < INFINITY);
+    score->undecided += excused ? 1 : 0;
+    return excused;
 }
 
 static void judge_time(agree_score *score, const agree_scene *scene, const hc_ray *ray, double t)

@@ -55,8 +55,9 @@ typedef struct agree_score {
  * tracer's tolerance, and not after the first one on the surface lowered by it. A ray that comes in
  * under the surface through an open side may come up from some of the surfaces and not from others,
  * and the claims need not hold: then what the reference says on the surface as it is, is right.
- * Where that differs from what it says on the other two, any other answer counts as undecided:
- * there should be next to none. Adds to *score. */
+ * Where that differs from what it says on the other two, or where the ray comes in between the
+ * raised surface and the lowered one, so that it may touch the ground right there, any other answer
+ * counts as undecided: there should be next to none. Adds to *score. */
 void agree_judge(agree_score *score, const agree_scene *scene, const hc_ray *ray, const hc_hit *hit,
                  bool found);
 
