@@ -4,7 +4,7 @@
 
 #include <stdlib.h>
 
-enum { WIDTH = 480, HEIGHT = 270, REPEAT = 3, BINARY = 5, MAPS = 6, PLANS_MAX = 64 };
+enum { WIDTH = 480, HEIGHT = 270, BINARY = 5, MAPS = 6, PLANS_MAX = 64 };
 
 /* ---- maps ------------------------------------------------------------------------------------ */
 
@@ -30,33 +30,17 @@ typedef struct job {
     const hc_bench_render_options *options;
     const char                    *name; /* of the field */
     hc_field                       field;
-    float                         *heights, *maps[MAPS];
+    float                         *maps[MAPS];
     hc_picture                     picture;
     hc_log                        *log;
 } job;
 
 static hc_result bake(float **map, const map_recipe *recipe, const job *j)
 {
-    const hc_cone_options options  = { .cones   = recipe->cones,
-                                       .method  = recipe->method,
-                                       .threads = j->options->threads };
-    const size_t          channels = (size_t)hc_cones_channels(recipe->cones);
-    const size_t          bytes =
-        (size_t)j->field.width * (size_t)j->field.height * channels * sizeof(float);
-    float    *ratios = malloc(bytes);
-    hc_result result =
-        ratios == NULL ? HC_ERROR_MEMORY : hc_bake_cone_map(ratios, &j->field, &options, j->log);
-    *map = result == HC_OK && recipe->cells ? malloc(bytes) : NULL;
-    if (result == HC_OK && recipe->cells && *map != NULL) {
-        hc_bake_cell_ratios(*map, ratios, j->field.width, j->field.height, recipe->cones,
-                            j->field.wrap);
-    }
-    if (result == HC_OK && !recipe->cells) {
-        *map = ratios;
-        return HC_OK;
-    }
-    free(ratios);
-    return result == HC_OK && *map == NULL ? HC_ERROR_MEMORY : result;
+    const hc_cone_options options = { .cones   = recipe->cones,
+                                      .method  = recipe->method,
+                                      .threads = j->options->plan.threads };
+    return hc_bench_bake_ratios(map, &j->field, &options, recipe->cells, j->log);
 }
 
 /* ---- frames ---------------------------------------------------------------------------------- */
@@ -116,10 +100,9 @@ static hc_result draw(job *j, const plan *p, hc_view view)
     const hc_scene          scene   = scene_of(j, p);
     const hc_render_options options = { .view    = view,
                                         .backend = j->options->backend,
-                                        .threads = j->options->threads };
-    return j->options->stop != NULL && j->options->stop()
-               ? HC_ERROR_CANCELLED
-               : hc_render(&j->picture, &scene, &options, j->log);
+                                        .threads = j->options->plan.threads };
+    return hc_bench_stopped(&j->options->plan) ? HC_ERROR_CANCELLED
+                                               : hc_render(&j->picture, &scene, &options, j->log);
 }
 
 /* ---- all of them ----------------------------------------------------------------------------- */
@@ -166,7 +149,7 @@ static hc_result measure_plans(job *j)
     plan      plans[PLANS_MAX];
     double    fastest[PLANS_MAX];
     const int count  = plan_all(plans);
-    const int runs   = j->options->repeat > 0 ? j->options->repeat : REPEAT;
+    const int runs   = hc_bench_repeat(&j->options->plan);
     hc_result result = HC_OK;
     for (int run = 0; run < runs; run++) {
         for (int i = 0; i < count && result == HC_OK; i++) {
@@ -184,16 +167,12 @@ static hc_result measure_plans(job *j)
     return result;
 }
 
-static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
+static hc_result measure_field(void *context, const char *name, const hc_field *field)
 {
-    const hc_result filled =
-        hc_bench_fill_ground(j->heights, side, ground, j->options->seed, j->log);
-    if (filled != HC_OK) {
-        return filled;
-    }
-    j->name          = ground->name;
-    j->field         = (hc_field){ .heights = j->heights, .width = side, .height = side };
+    job      *j      = context;
     hc_result result = HC_OK;
+    j->name          = name;
+    j->field         = *field;
     for (int i = 0; i < MAPS && result == HC_OK; i++) {
         result = bake(&j->maps[i], &recipes[i], j);
     }
@@ -207,23 +186,15 @@ static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
 
 hc_result hc_bench_render(const hc_bench_render_options *options, hc_log *log)
 {
-    const bool sized  = options->width > 0;
-    job        j      = { .options = options,
-                          .log     = log,
-                          .picture = { .width  = sized ? options->width : WIDTH,
-                                       .height = sized ? options->height : HEIGHT } };
-    hc_result  result = HC_OK;
+    const bool sized = options->width > 0;
+    job        j     = { .options = options,
+                         .log     = log,
+                         .picture = { .width  = sized ? options->width : WIDTH,
+                                      .height = sized ? options->height : HEIGHT } };
     j.picture.rgb = malloc((size_t)j.picture.width * (size_t)j.picture.height * 3 * sizeof(float));
-    for (int i = 0; i < options->field_count && result == HC_OK; i++) {
-        for (int s = 0; s < options->side_count && result == HC_OK; s++) {
-            const size_t side = (size_t)options->sides[s];
-            j.heights         = malloc(side * side * sizeof *j.heights);
-            result            = j.heights == NULL || j.picture.rgb == NULL
-                                    ? HC_ERROR_MEMORY
-                                    : measure_field(&j, &options->fields[i], options->sides[s]);
-            free(j.heights);
-        }
-    }
+    const hc_result result = j.picture.rgb == NULL
+                                 ? HC_ERROR_MEMORY
+                                 : hc_bench_each_field(&options->plan, measure_field, &j, log);
     free(j.picture.rgb);
     return result;
 }

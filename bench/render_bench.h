@@ -3,7 +3,7 @@
 #ifndef HC_BENCH_RENDER_BENCH_H
 #define HC_BENCH_RENDER_BENCH_H
 
-#include "ground.h"
+#include "plan.h"
 
 #include <heightcast/render.h>
 
@@ -21,17 +21,11 @@ typedef struct hc_bench_render_row {
     double      unconverged;
 } hc_bench_render_row;
 
+/* plan.methods are not looked at: all are measured. */
 typedef struct hc_bench_render_options {
-    const hc_bench_ground *fields;
-    int                    field_count;
-    const int             *sides;
-    int                    side_count;
-    int                    width, height; /* of the frame; 0: 480 x 270 */
-    hc_backend             backend;
-    uint64_t               seed;
-    int                    repeat;  /* 0: 3 */
-    int                    threads; /* 0: one per core */
-    bool (*stop)(void);
+    hc_bench_plan plan;
+    int           width, height; /* of the frame; 0: 480 x 270 */
+    hc_backend    backend;
     void (*row_done)(void *user, const hc_bench_render_row *row);
     void *user;
 } hc_bench_render_options;

@@ -29,47 +29,26 @@ const char *hc_bench_steps_method(int index)
     return index >= 0 && index < METHODS ? hc_trace_method_name(methods[index]) : NULL;
 }
 
-static bool wanted(const hc_bench_steps_options *options, int method)
-{
-    for (int i = 0; i < options->method_count; i++) {
-        if (strcmp(options->methods[i], hc_bench_steps_method(method)) == 0) {
-            return true;
-        }
-    }
-    return options->method_count == 0;
-}
-
 static bool keep_on(void *user, double fraction)
 {
-    const hc_bench_steps_options *options = user;
     (void)fraction;
-    return options->stop == NULL || !options->stop();
+    return !hc_bench_stopped(user);
 }
 
 static hc_progress progress_of(course *c)
 {
-    return (hc_progress){ keep_on, (void *)(uintptr_t)c->options };
+    return (hc_progress){ keep_on, (void *)(uintptr_t)&c->options->plan };
 }
 
 /* ---- casters --------------------------------------------------------------------------------- */
 
 static hc_result bake(course *c, hc_log *log)
 {
-    const size_t          samples = (size_t)c->field.width * (size_t)c->field.height;
     const hc_cone_options options = { .cones    = HC_CONES_L1,
-                                      .threads  = c->options->threads,
-                                      .isa      = c->options->isa,
+                                      .threads  = c->options->plan.threads,
+                                      .isa      = c->options->plan.isa,
                                       .progress = progress_of(c) };
-    float                *baked   = malloc(samples * sizeof *baked);
-    hc_result             result  = HC_ERROR_MEMORY;
-    c->ratios                     = malloc(samples * sizeof *c->ratios);
-    if (baked != NULL && c->ratios != NULL) {
-        result = hc_bake_cone_map(baked, &c->field, &options, log);
-        hc_bake_cell_ratios(c->ratios, baked, c->field.width, c->field.height, HC_CONES_L1,
-                            c->field.wrap);
-    }
-    free(baked);
-    return result;
+    return hc_bench_bake_ratios(&c->ratios, &c->field, &options, true, log);
 }
 
 static hc_result make_tracer(course *c, int method, hc_log *log)
@@ -83,8 +62,8 @@ static hc_result make_tracer(course *c, int method, hc_log *log)
                                        .placement = hc_bench_placement(&c->field),
                                        .ratios    = cones ? c->ratios : NULL,
                                        .cones     = HC_CONES_L1,
-                                       .isa       = c->options->isa,
-                                       .threads   = c->options->threads };
+                                       .isa       = c->options->plan.isa,
+                                       .threads   = c->options->plan.threads };
     return hc_tracer_create(&c->tracers[method], &c->field, &options, log);
 }
 
@@ -92,7 +71,9 @@ static hc_result make_tracers(course *c, hc_log *log)
 {
     hc_result result = HC_OK;
     for (int i = 0; i < METHODS && result == HC_OK; i++) {
-        result = wanted(c->options, i) ? make_tracer(c, i, log) : HC_OK;
+        if (hc_bench_chosen(&c->options->plan, hc_bench_steps_method(i))) {
+            result = make_tracer(c, i, log);
+        }
     }
     return result;
 }
@@ -136,7 +117,7 @@ static hc_result cast_sets(course *c, hc_log *log)
         for (int i = 0; i < METHODS && result == HC_OK; i++) {
             if (c->tracers[i] != NULL) {
                 result = hc_trace_batch(c->tracers[i], c->hits, c->rays, c->count,
-                                        c->options->threads, progress_of(c), log);
+                                        c->options->plan.threads, progress_of(c), log);
             }
             if (c->tracers[i] != NULL && result == HC_OK) {
                 report(c, set, i);
@@ -148,22 +129,24 @@ static hc_result cast_sets(course *c, hc_log *log)
 
 /* ---- fields ---------------------------------------------------------------------------------- */
 
-static hc_result run_side(const hc_bench_steps_options *options, const hc_bench_ground *ground,
-                          int side, hc_log *log)
+typedef struct job {
+    const hc_bench_steps_options *options;
+    hc_log                       *log;
+} job;
+
+static hc_result run_field(void *context, const char *name, const hc_field *field)
 {
-    const size_t samples = (size_t)side * (size_t)side;
-    float       *heights = malloc(samples * sizeof *heights);
-    course       c       = { .options = options,
-                             .name    = ground->name,
-                             .field   = { .heights = heights, .width = side, .height = side },
-                             .count   = options->rays > 0 ? options->rays : DEFAULT_RAYS };
-    c.rays               = malloc(c.count * sizeof *c.rays);
-    c.hits               = malloc(c.count * sizeof *c.hits);
-    hc_result result     = HC_ERROR_MEMORY;
-    if (heights != NULL && c.rays != NULL && c.hits != NULL) {
-        result = hc_bench_fill_ground(heights, side, ground, options->seed, log);
-        result = result == HC_OK ? make_tracers(&c, log) : result;
-        result = result == HC_OK ? cast_sets(&c, log) : result;
+    const job *j      = context;
+    course     c      = { .options = j->options,
+                          .name    = name,
+                          .field   = *field,
+                          .count   = j->options->rays > 0 ? j->options->rays : DEFAULT_RAYS };
+    hc_result  result = HC_ERROR_MEMORY;
+    c.rays            = malloc(c.count * sizeof *c.rays);
+    c.hits            = malloc(c.count * sizeof *c.hits);
+    if (c.rays != NULL && c.hits != NULL) {
+        result = make_tracers(&c, j->log);
+        result = result == HC_OK ? cast_sets(&c, j->log) : result;
     }
     for (int i = 0; i < METHODS; i++) {
         hc_tracer_destroy(c.tracers[i]);
@@ -171,17 +154,11 @@ static hc_result run_side(const hc_bench_steps_options *options, const hc_bench_
     free(c.ratios);
     free(c.hits);
     free(c.rays);
-    free(heights);
     return result;
 }
 
 hc_result hc_bench_steps(const hc_bench_steps_options *options, hc_log *log)
 {
-    hc_result result = HC_OK;
-    for (int i = 0; i < options->field_count; i++) {
-        for (int j = 0; j < options->side_count && result == HC_OK; j++) {
-            result = run_side(options, &options->fields[i], options->sides[j], log);
-        }
-    }
-    return result;
+    job j = { options, log };
+    return hc_bench_each_field(&options->plan, run_field, &j, log);
 }

@@ -2,7 +2,7 @@
 #ifndef HC_BENCH_STEPS_BENCH_H
 #define HC_BENCH_STEPS_BENCH_H
 
-#include "ground.h"
+#include "plan.h"
 
 #include <heightcast/trace.h>
 
@@ -18,18 +18,10 @@ typedef struct hc_bench_steps_row {
     double      worst;  /* of all                       */
 } hc_bench_steps_row;
 
+/* Counts do not depend on plan.threads. */
 typedef struct hc_bench_steps_options {
-    const hc_bench_ground *fields;
-    int                    field_count;
-    const int             *sides;
-    int                    side_count;
-    const char *const     *methods; /* all, if there are none */
-    int                    method_count;
-    uint64_t               seed;
-    int                    threads; /* 0: one per core; counts do not depend on it */
-    size_t                 rays;    /* in a set; 0: 65536                          */
-    hc_isa                 isa;
-    bool (*stop)(void);
+    hc_bench_plan plan;
+    size_t        rays; /* in a set; 0: 65536 */
     void (*row_done)(void *user, const hc_bench_steps_row *row);
     void *user;
 } hc_bench_steps_options;

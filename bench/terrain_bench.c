@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { WIDTH = 480, HEIGHT = 270, REPEAT = 3, FRAMES = 5, TOURS = 2 };
+enum { WIDTH = 480, HEIGHT = 270, FRAMES = 5, TOURS = 2 };
 
 /* In the order of hc_polygons, but none. */
 static const char *const polygon_names[2] = { "mesh", "lod" };
@@ -50,43 +50,26 @@ static size_t ratio_count(const job *j)
                      * (size_t)hc_cones_channels(j->cones);
 }
 
-/* From ratios of samples to those of cells. */
-static hc_result to_cells(job *j)
-{
-    float *cells = malloc(ratio_count(j) * sizeof *cells);
-    if (cells == NULL) {
-        return HC_ERROR_MEMORY;
-    }
-    hc_bake_cell_ratios(cells, j->ratios, j->field.width, j->field.height, j->cones, j->field.wrap);
-    free(j->ratios);
-    j->ratios = cells;
-    return HC_OK;
-}
-
 static hc_result bake(job *j)
 {
-    const hc_trace_needs needs = hc_trace_method_needs(j->method);
-    j->cones                   = needs == HC_NEEDS_CELL_RATIOS ? HC_CONES_QUAD : HC_CONES_L2;
-    if (needs == HC_NEEDS_NOTHING) {
-        return HC_OK;
-    }
+    const hc_trace_needs needs    = hc_trace_method_needs(j->method);
+    const bool           cells    = needs == HC_NEEDS_CELL_RATIOS;
+    const bool           relaxed  = needs == HC_NEEDS_RELAXED;
+    j->cones                      = cells ? HC_CONES_QUAD : HC_CONES_L2;
     const hc_cone_options options = { .cones   = j->cones,
-                                      .method  = needs == HC_NEEDS_RELAXED ? HC_METHOD_FALLING_EDGE
-                                                                           : HC_METHOD_EXACT,
-                                      .threads = j->options->threads };
-    j->ratios                     = malloc(ratio_count(j) * sizeof *j->ratios);
-    hc_result result              = HC_ERROR_MEMORY;
-    if (j->ratios != NULL) {
-        result = hc_bake_cone_map(j->ratios, &j->field, &options, j->log);
-    }
-    return result == HC_OK && needs == HC_NEEDS_CELL_RATIOS ? to_cells(j) : result;
+                                      .method  = relaxed ? HC_METHOD_FALLING_EDGE : HC_METHOD_EXACT,
+                                      .threads = j->options->plan.threads };
+    return needs == HC_NEEDS_NOTHING
+               ? HC_OK
+               : hc_bench_bake_ratios(&j->ratios, &j->field, &options, cells, j->log);
 }
 
 static hc_trace_options trace_of(const job *j)
 {
-    return (hc_trace_options){
-        .method = j->method, .ratios = j->ratios, .cones = j->cones, .threads = j->options->threads
-    };
+    return (hc_trace_options){ .method  = j->method,
+                               .ratios  = j->ratios,
+                               .cones   = j->cones,
+                               .threads = j->options->plan.threads };
 }
 
 static hc_result make(hc_terrain **terrain, const job *j, hc_view view)
@@ -96,7 +79,7 @@ static hc_result make(hc_terrain **terrain, const job *j, hc_view view)
     };
     const hc_render_options options = { .view    = view,
                                         .backend = j->options->backend,
-                                        .threads = j->options->threads };
+                                        .threads = j->options->plan.threads };
     return hc_terrain_create(terrain, &scene, &options, j->log);
 }
 
@@ -114,7 +97,7 @@ static hc_result draw_tour(sums *all, job *j, const hc_terrain *terrain, hc_tour
     for (int i = 0; i < FRAMES; i++) {
         hc_camera camera;
         hc_terrain_tour(&camera, terrain, tour, (double)i / FRAMES);
-        const hc_result result = j->options->stop != NULL && j->options->stop()
+        const hc_result result = hc_bench_stopped(&j->options->plan)
                                      ? HC_ERROR_CANCELLED
                                      : hc_terrain_draw(&j->picture, terrain, &camera, j->log);
         if (result != HC_OK) {
@@ -210,7 +193,7 @@ static hc_result measure_method(job *j, const char *name)
     hc_bench_terrain_row row = { .field  = j->name,
                                  .side   = j->field.width,
                                  .method = name,
-                                 .runs   = j->options->repeat > 0 ? j->options->repeat : REPEAT,
+                                 .runs   = hc_bench_repeat(&j->options->plan),
                                  .frames = FRAMES };
     choose_method(j, name);
     const hc_result result = measure_ready(&row, j);
@@ -222,25 +205,22 @@ static hc_result measure_method(job *j, const char *name)
     return result;
 }
 
-static hc_result measure_field(job *j, const hc_bench_ground *ground, int side)
+static hc_result measure_field(void *context, const char *name, const hc_field *field)
 {
     static const char *const usual[] = { "fast", "maxmip", "safe", "cone-loop", "mesh", "lod" };
     /* fast is the CPU's alone, polygons are GL's. */
-    const bool         gl      = j->options->backend == HC_BACKEND_GL;
-    const bool         all     = j->options->method_count == 0;
-    const char *const *names   = !all ? j->options->methods : gl ? usual + 1 : usual;
-    const int          count   = !all ? j->options->method_count : gl ? 5 : 4;
-    float             *heights = malloc((size_t)side * (size_t)side * sizeof *heights);
-    hc_result          result  = HC_ERROR_MEMORY;
-    if (heights != NULL) {
-        result = hc_bench_fill_ground(heights, side, ground, j->options->seed, j->log);
-    }
-    j->name  = ground->name;
-    j->field = (hc_field){ .heights = heights, .width = side, .height = side };
+    job                 *j      = context;
+    const hc_bench_plan *plan   = &j->options->plan;
+    const bool           gl     = j->options->backend == HC_BACKEND_GL;
+    const bool           all    = plan->method_count == 0;
+    const char *const   *names  = !all ? plan->methods : gl ? usual + 1 : usual;
+    const int            count  = !all ? plan->method_count : gl ? 5 : 4;
+    hc_result            result = HC_OK;
+    j->name                     = name;
+    j->field                    = *field;
     for (int i = 0; i < count && result == HC_OK; i++) {
         result = measure_method(j, names[i]);
     }
-    free(heights);
     return result;
 }
 
@@ -252,12 +232,9 @@ hc_result hc_bench_terrain(const hc_bench_terrain_options *options, hc_log *log)
                          .picture = { .width  = sized ? options->width : WIDTH,
                                       .height = sized ? options->height : HEIGHT } };
     j.picture.rgb = malloc((size_t)j.picture.width * (size_t)j.picture.height * 3 * sizeof(float));
-    hc_result result = j.picture.rgb == NULL ? HC_ERROR_MEMORY : HC_OK;
-    for (int i = 0; i < options->field_count && result == HC_OK; i++) {
-        for (int s = 0; s < options->side_count && result == HC_OK; s++) {
-            result = measure_field(&j, &options->fields[i], options->sides[s]);
-        }
-    }
+    const hc_result result = j.picture.rgb == NULL
+                                 ? HC_ERROR_MEMORY
+                                 : hc_bench_each_field(&options->plan, measure_field, &j, log);
     free(j.picture.rgb);
     return result;
 }

@@ -3,7 +3,7 @@
 #ifndef HC_BENCH_TERRAIN_BENCH_H
 #define HC_BENCH_TERRAIN_BENCH_H
 
-#include "ground.h"
+#include "plan.h"
 
 #include <heightcast/terrain.h>
 
@@ -24,19 +24,11 @@ typedef struct hc_bench_terrain_row {
     hc_bench_tour fly, walk;
 } hc_bench_terrain_row;
 
+/* plan.methods: without them fast (cpu), maxmip, safe, cone-loop, mesh and lod (gl). */
 typedef struct hc_bench_terrain_options {
-    const hc_bench_ground *fields;
-    int                    field_count;
-    const int             *sides;
-    int                    side_count;
-    const char *const     *methods;
-    int        method_count;  /* 0: fast (cpu), maxmip, safe, cone-loop, mesh and lod (gl) */
-    int        width, height; /* of the frame; 0: 480 x 270               */
-    hc_backend backend;
-    uint64_t   seed;
-    int        repeat;  /* 0: 3 */
-    int        threads; /* 0: one per core */
-    bool (*stop)(void);
+    hc_bench_plan plan;
+    int           width, height; /* of the frame; 0: 480 x 270 */
+    hc_backend    backend;
     void (*row_done)(void *user, const hc_bench_terrain_row *row);
     void *user;
 } hc_bench_terrain_options;

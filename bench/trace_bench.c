@@ -9,7 +9,7 @@
 #include <string.h>
 #include <time.h>
 
-enum { DEFAULT_REPEAT = 3, DEFAULT_THREADS = 2, THREADS_MAX = 64, CHUNK = 1 << 14 };
+enum { DEFAULT_THREADS = 2, THREADS_MAX = 64, CHUNK = 1 << 14 };
 
 static const hc_bench_peer *const peers[] = {
     &hc_peer_fast,
@@ -57,11 +57,6 @@ static double read_clock(clockid_t clock)
 const char *hc_bench_caster(int index)
 {
     return index >= 0 && index < PEERS ? peers[index]->name : NULL;
-}
-
-static bool stopped(const hc_bench_trace_options *options)
-{
-    return options->stop != NULL && options->stop();
 }
 
 static void *run_part(void *context)
@@ -127,7 +122,7 @@ static size_t count_hits(const bench *b, const stage *s, int set, size_t *cast)
 static void measure(const bench *b, const stage *s, int mode, int set, int threads)
 {
     const hc_bench_trace_options *options = b->options;
-    const int                     repeat  = options->repeat > 0 ? options->repeat : DEFAULT_REPEAT;
+    const int                     repeat  = hc_bench_repeat(&options->plan);
     double                        fastest = INFINITY;
     for (int i = 0; i < repeat; i++) {
         fastest = fmin(fastest, run_set(b, s, mode, set, threads));
@@ -152,11 +147,12 @@ static void measure(const bench *b, const stage *s, int mode, int set, int threa
 
 static hc_result measure_all(const bench *b, const stage *s)
 {
-    const int threads = b->options->threads > 0 ? b->options->threads : DEFAULT_THREADS;
+    const int asked   = b->options->plan.threads;
+    const int threads = asked > 0 ? asked : DEFAULT_THREADS;
     for (int set = 0; set < HC_RAYS_TIMED; set++) {
         for (int mode = 0; mode < HC_PEER_MODES && s->peer->modes[mode] != NULL; mode++) {
             for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
-                if (stopped(b->options)) {
+                if (hc_bench_stopped(&b->options->plan)) {
                     return HC_ERROR_CANCELLED;
                 }
                 measure(b, s, mode, set, n < THREADS_MAX ? n : THREADS_MAX);
@@ -166,26 +162,16 @@ static hc_result measure_all(const bench *b, const stage *s)
     return HC_OK;
 }
 
-static bool wanted(const hc_bench_trace_options *options, const char *name)
-{
-    for (int i = 0; i < options->caster_count; i++) {
-        if (strcmp(options->casters[i], name) == 0) {
-            return true;
-        }
-    }
-    return options->caster_count == 0;
-}
-
 static hc_result run_peers(const bench *b)
 {
     hc_result result = HC_OK;
     for (int i = 0; i < PEERS && result == HC_OK; i++) {
-        if (!wanted(b->options, peers[i]->name)) {
+        if (!hc_bench_chosen(&b->options->plan, peers[i]->name)) {
             continue;
         }
         stage        s     = { .peer = peers[i] };
         const double start = read_clock(CLOCK_PROCESS_CPUTIME_ID);
-        s.scene            = s.peer->create(&b->field, b->options->isa);
+        s.scene            = s.peer->create(&b->field, b->options->plan.isa);
         s.build_seconds    = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start;
         if (s.scene == NULL) {
             return HC_ERROR_MEMORY;
@@ -196,31 +182,26 @@ static hc_result run_peers(const bench *b)
     return result;
 }
 
-static bool take(bench *b, float **heights, int side)
+static bool take(bench *b)
 {
     bool taken = true;
-    *heights   = malloc((size_t)side * (size_t)side * sizeof **heights);
     b->hits    = calloc(b->count, sizeof *b->hits);
     for (int set = 0; set < HC_RAYS_TIMED; set++) {
         b->rays[set] = malloc(b->count * sizeof **b->rays);
         taken        = taken && b->rays[set] != NULL;
     }
-    return taken && *heights != NULL && b->hits != NULL;
+    return taken && b->hits != NULL;
 }
 
-static hc_result run_field(const hc_bench_trace_options *options, const hc_bench_ground *ground,
-                           int side, hc_log *log)
+static hc_result run_field(void *job, const char *name, const hc_field *field)
 {
-    float    *heights;
-    bench     b      = { .options = options,
-                         .name    = ground->name,
-                         .field   = { .width = side, .height = side },
-                         .count   = options->rays > 0 ? options->rays : HC_RAYS_PICTURE };
-    hc_result result = take(&b, &heights, side)
-                           ? hc_bench_fill_ground(heights, side, ground, options->seed, log)
-                           : HC_ERROR_MEMORY;
-    b.field.heights  = heights;
-    if (result == HC_OK) {
+    const hc_bench_trace_options *options = job;
+    bench                         b       = { .options = options,
+                                              .name    = name,
+                                              .field   = *field,
+                                              .count = options->rays > 0 ? options->rays : HC_RAYS_PICTURE };
+    hc_result                     result  = HC_ERROR_MEMORY;
+    if (take(&b)) {
         for (int set = 0; set < HC_RAYS_TIMED; set++) {
             hc_bench_fill_rays(b.rays[set], b.count, (hc_bench_rays)set, &b.field);
         }
@@ -230,17 +211,11 @@ static hc_result run_field(const hc_bench_trace_options *options, const hc_bench
         free(b.rays[set]);
     }
     free(b.hits);
-    free(heights);
     return result;
 }
 
 hc_result hc_bench_trace(const hc_bench_trace_options *options, hc_log *log)
 {
-    hc_result result = HC_OK;
-    for (int i = 0; i < options->field_count; i++) {
-        for (int j = 0; j < options->side_count && result == HC_OK; j++) {
-            result = run_field(options, &options->fields[i], options->sides[j], log);
-        }
-    }
-    return result;
+    hc_bench_trace_options job = *options;
+    return hc_bench_each_field(&options->plan, run_field, &job, log);
 }

@@ -2,7 +2,7 @@
 #ifndef HC_BENCH_TRACE_BENCH_H
 #define HC_BENCH_TRACE_BENCH_H
 
-#include "ground.h"
+#include "plan.h"
 
 #include <heightcast/trace.h>
 
@@ -22,19 +22,10 @@ typedef struct hc_bench_trace_row {
     double      bytes;         /* held; 0: not known                                         */
 } hc_bench_trace_row;
 
+/* plan.threads: beside one thread; 0: 2, 1: one alone. plan.methods: casters, all in this build. */
 typedef struct hc_bench_trace_options {
-    const hc_bench_ground *fields;
-    int                    field_count;
-    const int             *sides;
-    int                    side_count;
-    const char *const     *casters; /* all that were built, if there are none */
-    int                    caster_count;
-    uint64_t               seed;
-    int                    repeat;  /* 0: 3                            */
-    int                    threads; /* beside one; 0: 2; 1: one alone  */
-    size_t                 rays;    /* in a set; 0: 1920 * 1080        */
-    hc_isa                 isa;
-    bool (*stop)(void);
+    hc_bench_plan plan;
+    size_t        rays; /* in a set; 0: 1920 * 1080 */
     void (*row_done)(void *user, const hc_bench_trace_row *row);
     void *user;
 } hc_bench_trace_options;

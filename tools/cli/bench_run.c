@@ -5,9 +5,26 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-bool hc_cli_run_stopped(void)
+static bool stopped(void)
 {
     return hc_cli_caught_signal() != 0;
+}
+
+hc_bench_plan hc_cli_run_plan(const hc_cli_run *run)
+{
+    const hc_cli_settings *settings = &run->cli->settings;
+    const hc_cli_grounds  *in       = &run->in;
+    return (hc_bench_plan){ .fields       = in->grounds,
+                            .field_count  = in->fields.count,
+                            .sides        = in->numbers,
+                            .side_count   = in->sides.count,
+                            .methods      = in->methods.items,
+                            .method_count = in->methods.count,
+                            .seed         = settings->seed,
+                            .repeat       = settings->repeat,
+                            .threads      = settings->threads,
+                            .isa          = settings->map.cone.isa,
+                            .stop         = stopped };
 }
 
 bool hc_cli_run_add(hc_cli_run *run, const void *row, size_t size, cJSON *object, const char *csv)

@@ -30,6 +30,9 @@ typedef struct hc_cli_run_kind {
 /* Returns the exit code. */
 int hc_cli_bench_run(hc_cli *cli, const hc_cli_run_kind *kind);
 
+/* What the command line says of the fields, the methods and the runs. */
+hc_bench_plan hc_cli_run_plan(const hc_cli_run *run);
+
 /* Keep a row; its object and its line of CSV are added to the reports. False: memory ran out. */
 bool hc_cli_run_add(hc_cli_run *run, const void *row, size_t size, cJSON *object, const char *csv);
 /* Show what there is of a long run. */
@@ -39,8 +42,5 @@ int hc_cli_run_bench_trace(hc_cli *cli);
 int hc_cli_run_bench_steps(hc_cli *cli);
 int hc_cli_run_bench_render(hc_cli *cli);
 int hc_cli_run_bench_terrain(hc_cli *cli);
-
-/* `stop` of the measurements. */
-bool hc_cli_run_stopped(void);
 
 #endif

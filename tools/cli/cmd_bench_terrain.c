@@ -117,25 +117,15 @@ static void add_figures(hc_cli_run *r)
 
 static hc_result measure(hc_cli_run *r)
 {
-    const hc_cli_grounds          *in       = &r->in;
     const hc_cli_settings         *settings = &r->cli->settings;
-    const hc_bench_terrain_options options  = { .fields       = in->grounds,
-                                                .field_count  = in->fields.count,
-                                                .sides        = in->numbers,
-                                                .side_count   = in->sides.count,
-                                                .methods      = in->methods.items,
-                                                .method_count = in->methods.count,
-                                                .width        = settings->size.width,
-                                                .height       = settings->size.height,
-                                                .backend      = settings->backend == HC_CLI_GL
-                                                                    ? HC_BACKEND_GL
-                                                                    : HC_BACKEND_CPU,
-                                                .seed         = settings->seed,
-                                                .repeat       = settings->repeat,
-                                                .threads      = settings->threads,
-                                                .stop         = hc_cli_run_stopped,
-                                                .row_done     = row_done,
-                                                .user         = r };
+    const hc_bench_terrain_options options  = { .plan     = hc_cli_run_plan(r),
+                                                .width    = settings->size.width,
+                                                .height   = settings->size.height,
+                                                .backend  = settings->backend == HC_CLI_GL
+                                                                ? HC_BACKEND_GL
+                                                                : HC_BACKEND_CPU,
+                                                .row_done = row_done,
+                                                .user     = r };
     return hc_bench_terrain(&options, &r->cli->log);
 }
 

@@ -122,22 +122,10 @@ static void add_figures(hc_cli_run *r)
 
 static hc_result measure(hc_cli_run *r)
 {
-    const hc_cli_grounds        *in       = &r->in;
-    const hc_cli_settings       *settings = &r->cli->settings;
-    const hc_bench_trace_options options  = { .fields       = in->grounds,
-                                              .field_count  = in->fields.count,
-                                              .sides        = in->numbers,
-                                              .side_count   = in->sides.count,
-                                              .casters      = in->methods.items,
-                                              .caster_count = in->methods.count,
-                                              .seed         = settings->seed,
-                                              .rays         = (size_t)settings->rays.count,
-                                              .repeat       = settings->repeat,
-                                              .threads      = settings->threads,
-                                              .isa          = settings->map.cone.isa,
-                                              .stop         = hc_cli_run_stopped,
-                                              .row_done     = row_done,
-                                              .user         = r };
+    const hc_bench_trace_options options = { .plan     = hc_cli_run_plan(r),
+                                             .rays     = (size_t)r->cli->settings.rays.count,
+                                             .row_done = row_done,
+                                             .user     = r };
     return hc_bench_trace(&options, &r->cli->log);
 }
 

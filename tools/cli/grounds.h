@@ -6,7 +6,7 @@
 #include "lists.h"
 #include "options.h"
 
-#include "bench/ground.h"
+#include "bench/plan.h"
 
 /* Split the value of --NAME and check each item against `words` (NULL: none). */
 int hc_cli_read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
