@@ -40,7 +40,8 @@ HC_API const char *hc_body_name(hc_body body); /* "plane", ...; static */
 typedef enum hc_edge { HC_EDGE_WALL = 0, HC_EDGE_DISCARD, HC_EDGE_CLAMP } hc_edge;
 HC_API const char *hc_edge_name(hc_edge edge); /* "wall", "discard", "clamp"; static */
 
-struct hc_gpu_map; /* gpu.h */
+struct hc_gpu; /* gpu.h */
+struct hc_gpu_map;
 
 typedef struct hc_relief {
     hc_field         field; /* heights are borrowed */
@@ -141,6 +142,9 @@ typedef struct hc_render_options {
     float       top; /* of heat maps: steps, or world units; 0: the 99 % quantile of those found */
     int         threads; /* cpu  [0 .. 1024]  0: one per core; same bytes for every number        */
     hc_progress progress;
+    struct hc_gpu *gpu; /* gl, relief: draw in its context, on its thread; shaders that it has
+                           compiled are there for the next picture, as they are with relief.baked.
+                           NULL: in a context that lives as long as the call */
 } hc_render_options;
 
 /* What was seen. Counts are of view rays: width * height * samples. */

@@ -1,5 +1,7 @@
 #include "context.h"
 
+#include "program.h"
+
 #include "base/fail.h"
 
 #include <dlfcn.h>
@@ -90,8 +92,9 @@ void hc_gl_close(hc_gl_context *context)
         (void)eglMakeCurrent(context->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     }
     if (context->context != NULL) {
-        (void)eglDestroyContext(context->display, context->context);
+        (void)eglDestroyContext(context->display, context->context); /* with its programs */
     }
+    hc_gl_forget_programs(context);
     /* The display is shared by the whole process, so it is not terminated. */
 }
 

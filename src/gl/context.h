@@ -5,7 +5,8 @@
 #include <heightcast/result.h>
 
 typedef struct hc_gl_context {
-    void *display, *context; /* NULL: not there */
+    void                 *display, *context; /* NULL: not there */
+    struct hc_gl_program *programs;          /* compiled so far: hc_gl_program_of */
 } hc_gl_context;
 
 /* Make an OpenGL 4.3 core context and make it the calling thread's. HC_ERROR_UNSUPPORTED says what

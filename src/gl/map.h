@@ -1,4 +1,4 @@
-/* Maps that a GPU baked and keeps, as those who draw them see them. */
+/* What bakes on a GPU, and maps that it keeps, as those who draw see them. */
 #ifndef HC_GL_MAP_H
 #define HC_GL_MAP_H
 
@@ -6,14 +6,22 @@
 
 #include <heightcast/maps.h>
 
+struct hc_gpu;
+
 struct hc_gpu_map {
-    const hc_gl_context *context;
-    hc_field             field;   /* heights are a copy of what the texture holds */
-    unsigned             heights; /* a texture of one float                       */
-    unsigned             ratios;  /* of one float (l1, l2) or four                */
-    hc_cones             cones;
-    bool                 cells;   /* ratios are those of cells */
-    bool                 relaxed; /* by gems or falling-edge   */
+    hc_gl_context *context;
+    hc_field       field;   /* heights are a copy of what the texture holds */
+    unsigned       heights; /* a texture of one float                       */
+    unsigned       ratios;  /* of one float (l1, l2) or four                */
+    hc_cones       cones;
+    bool           cells;   /* ratios are those of cells */
+    bool           relaxed; /* by gems or falling-edge   */
 };
+
+/* A struct hc_gpu begins with its context. */
+static inline hc_gl_context *hc_gl_context_of(struct hc_gpu *gpu)
+{
+    return (hc_gl_context *)gpu;
+}
 
 #endif

@@ -5,9 +5,10 @@
 #include <epoxy/gl.h>
 
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
-enum { FILES_MAX = 4, MESSAGE_MAX = 512 };
+enum { MESSAGE_MAX = 512, STAGES = 3 };
 
 static int count_lines(const char *text)
 {
@@ -41,8 +42,8 @@ static hc_result complain(const char *message, const char *head, const hc_shader
 static hc_result compile(unsigned *shader, GLenum stage, const char *head,
                          const hc_shader_text *files, hc_log *log)
 {
-    const char *texts[1 + FILES_MAX] = { head };
-    int         count                = 0;
+    const char *texts[1 + HC_GL_FILES_MAX] = { head };
+    int         count                      = 0;
     for (; files[count].name != NULL; count++) {
         texts[1 + count] = files[count].text;
     }
@@ -78,16 +79,26 @@ typedef struct stage {
     const hc_shader_text *files;
 } stage;
 
-static hc_result build(unsigned *program, const char *head, const stage *stages, int count,
-                       hc_log *log)
+static void list_stages(stage stages[STAGES], const hc_gl_recipe *recipe)
+{
+    stages[0] = (stage){ GL_VERTEX_SHADER, recipe->vertex };
+    stages[1] = (stage){ GL_FRAGMENT_SHADER, recipe->fragment };
+    stages[2] = (stage){ GL_COMPUTE_SHADER, recipe->compute };
+}
+
+hc_result hc_gl_build(unsigned *program, const hc_gl_recipe *recipe, hc_log *log)
 {
     hc_result result = HC_OK;
-    *program         = glCreateProgram();
-    for (int i = 0; i < count && result == HC_OK; i++) {
+    stage     stages[STAGES];
+    list_stages(stages, recipe);
+    *program = glCreateProgram();
+    for (int i = 0; i < STAGES && result == HC_OK; i++) {
         unsigned shader = 0;
-        result          = compile(&shader, stages[i].kind, head, stages[i].files, log);
-        glAttachShader(*program, shader);
-        glDeleteShader(shader); /* as soon as the program is */
+        if (stages[i].files->name != NULL) {
+            result = compile(&shader, stages[i].kind, recipe->head, stages[i].files, log);
+            glAttachShader(*program, shader);
+            glDeleteShader(shader); /* as soon as the program is */
+        }
     }
     result = result == HC_OK ? link(*program, log) : result;
     if (result != HC_OK) {
@@ -106,16 +117,87 @@ const char *hc_shader_text_named(const char *name)
     return text->text;
 }
 
-hc_result hc_gl_build(unsigned *program, const char *head, const hc_shader_text *vertex,
-                      const hc_shader_text *fragment, hc_log *log)
+/* ---- kept with the context ------------------------------------------------------------------ */
+
+enum { KEY_MAX = 512 };
+
+struct hc_gl_program {
+    struct hc_gl_program *next;
+    unsigned              name;
+    bool                  ran;
+    char                  key[KEY_MAX];
+};
+
+static void add_words(char key[KEY_MAX], const char *words)
 {
-    const stage stages[] = { { GL_VERTEX_SHADER, vertex }, { GL_FRAGMENT_SHADER, fragment } };
-    return build(program, head, stages, 2, log);
+    const size_t length = strlen(key);
+    (void)snprintf(key + length, KEY_MAX - length, "%s\n", words);
 }
 
-hc_result hc_gl_build_compute(unsigned *program, const char *head, const hc_shader_text *compute,
-                              hc_log *log)
+static void write_key(char key[KEY_MAX], const hc_gl_recipe *recipe)
 {
-    const stage stages[] = { { GL_COMPUTE_SHADER, compute } };
-    return build(program, head, stages, 1, log);
+    stage stages[STAGES];
+    list_stages(stages, recipe);
+    key[0] = '\0';
+    for (int i = 0; i < STAGES; i++) {
+        for (const hc_shader_text *file = stages[i].files; file->name != NULL; file++) {
+            add_words(key, file->name);
+        }
+    }
+    add_words(key, recipe->head);
+}
+
+static struct hc_gl_program *find(const hc_gl_context *context, const char *key)
+{
+    struct hc_gl_program *kept = context->programs;
+    while (kept != NULL && strcmp(kept->key, key) != 0) {
+        kept = kept->next;
+    }
+    return kept;
+}
+
+hc_result hc_gl_program_of(unsigned *program, hc_gl_context *context, const hc_gl_recipe *recipe,
+                           hc_log *log)
+{
+    char key[KEY_MAX];
+    write_key(key, recipe);
+    struct hc_gl_program *kept = find(context, key);
+    if (kept != NULL) {
+        *program = kept->name;
+        return HC_OK;
+    }
+    kept = calloc(1, sizeof *kept);
+    if (kept == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for a shader");
+    }
+    const hc_result result = hc_gl_build(&kept->name, recipe, log);
+    if (result != HC_OK) {
+        free(kept);
+        return result;
+    }
+    memcpy(kept->key, key, sizeof key);
+    kept->next        = context->programs;
+    context->programs = kept;
+    *program          = kept->name;
+    return HC_OK;
+}
+
+bool hc_gl_first_run(hc_gl_context *context, unsigned program)
+{
+    struct hc_gl_program *kept = context->programs;
+    while (kept->name != program) {
+        kept = kept->next;
+    }
+    const bool first = !kept->ran;
+    kept->ran        = true;
+    return first;
+}
+
+void hc_gl_forget_programs(hc_gl_context *context)
+{
+    while (context->programs != NULL) {
+        struct hc_gl_program *gone = context->programs;
+        context->programs          = gone->next;
+        free(gone);
+    }
 }

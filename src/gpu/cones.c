@@ -53,7 +53,7 @@ static hc_result run_rows(const hc_gpu_baking *b, unsigned program)
     for (int y = 0; y < b->job->height && result == HC_OK;) {
         const int first[2] = { 0, y };
         const int end[2]   = { b->job->width, least(y + rows, b->job->height) };
-        rows               = paced(rows, hc_gpu_dispatch(b->gpu, program, first, end));
+        rows               = paced(rows, hc_gpu_run(b->gpu, program, first, end));
         y                  = end[1];
         result             = hc_gl_check("baking", b->job->log);
         result             = result == HC_OK ? report(b, (double)y / b->job->height) : result;
@@ -70,7 +70,7 @@ static hc_result run_against_all(const hc_gpu_baking *b, unsigned program, const
         const int next = least(y + *rows, b->job->height);
         hc_gpu_set_pair(program, "u_rows", y, next);
         glUniform1i(glGetUniformLocation(program, "u_go_on"), y > 0);
-        *rows  = paced(*rows, hc_gpu_dispatch(b->gpu, program, first, end));
+        *rows  = paced(*rows, hc_gpu_run(b->gpu, program, first, end));
         y      = next;
         result = hc_gl_check("baking", b->job->log);
     }
@@ -136,8 +136,7 @@ static hc_result keep_falling(const hc_gpu_baking *b)
     }
     set_search(b, program);
     bind_best(b->highest);
-    hc_gpu_warm_up(program);
-    (void)hc_gpu_dispatch(b->gpu, program, first, end);
+    (void)hc_gpu_run(b->gpu, program, first, end);
     return hc_gpu_fill_pyramid(b->gpu, b->highest, b->job->width, b->job->height, HC_MAXIMUM,
                                b->job->log);
 }
@@ -195,7 +194,6 @@ hc_result hc_gpu_search(const hc_gpu_baking *b)
         set_change(program, b->change);
     }
     bind_best(b->best);
-    hc_gpu_warm_up(program);
     return brute ? run_brute(b, program) : run_rows(b, program);
 }
 

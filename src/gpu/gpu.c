@@ -18,20 +18,16 @@ enum { TRIAL_SIDE = 64, TRIALS = TRIAL_SIDE * TRIAL_SIDE, GROUP = 8 };
 hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool l2, bool sided,
                      hc_log *log)
 {
-    const hc_shader_text texts[] = { { "bake.comp", hc_shader_text_named("bake.comp") },
-                                     { NULL, NULL } };
-    unsigned            *kept    = &gpu->programs[shader][l2 ? 1 : 0][sided ? 1 : 0];
-    hc_result            result  = HC_OK;
-    if (*kept == 0) {
-        char head[128];
-        (void)snprintf(head, sizeof head,
-                       "#version 430 core\n#define HC_BAKE %d\n#define HC_L2 %d\n"
-                       "#define HC_SIDED %d\n",
-                       (int)shader, l2 ? 1 : 0, sided ? 1 : 0);
-        result = hc_gl_build_compute(kept, head, texts, log);
-    }
-    *program = *kept;
-    glUseProgram(*kept);
+    char head[128];
+    (void)snprintf(head, sizeof head,
+                   "#version 430 core\n#define HC_BAKE %d\n#define HC_L2 %d\n#define HC_SIDED %d\n",
+                   (int)shader, l2 ? 1 : 0, sided ? 1 : 0);
+    const hc_gl_recipe recipe = {
+        .head = head, .compute = { { "bake.comp", hc_shader_text_named("bake.comp") } }
+    };
+    *program               = 0;
+    const hc_result result = hc_gl_program_of(program, &gpu->context, &recipe, log);
+    glUseProgram(*program);
     return result;
 }
 
@@ -54,14 +50,21 @@ static void dispatch(unsigned program, const int first[2], const int end[2], uns
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
                     | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_ATOMIC_COUNTER_BARRIER_BIT
                     | GL_BUFFER_UPDATE_BARRIER_BIT);
-    glFinish();
 }
 
 /* One group, all of it beyond the last texel. */
-void hc_gpu_warm_up(unsigned program)
+void hc_gpu_warm_up(hc_gpu *gpu, unsigned program)
 {
     static const int none[2] = { 0, 0 };
-    dispatch(program, none, none, 1, 1);
+    if (hc_gl_first_run(&gpu->context, program)) {
+        dispatch(program, none, none, 1, 1);
+        glFinish();
+    }
+}
+
+void hc_gpu_dispatch(unsigned program, const int first[2], const int end[2])
+{
+    dispatch(program, first, end, groups(first[0], end[0]), groups(first[1], end[1]));
 }
 
 /* Between two time stamps that the GPU took. */
@@ -74,19 +77,30 @@ static double seconds_between(const unsigned stamps[2])
     return 1e-9 * (double)(times[1] - times[0]);
 }
 
-double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const int end[2])
+void hc_gpu_start(hc_gpu *gpu)
 {
-    unsigned     stamps[2];
-    const double start = hc_clock_now();
-    glGenQueries(2, stamps);
-    glQueryCounter(stamps[0], GL_TIMESTAMP);
-    dispatch(program, first, end, groups(first[0], end[0]), groups(first[1], end[1]));
-    glQueryCounter(stamps[1], GL_TIMESTAMP);
+    gpu->started = hc_clock_now();
+    glGenQueries(2, gpu->stamps);
+    glQueryCounter(gpu->stamps[0], GL_TIMESTAMP);
+}
+
+/* The stamp is taken when the work is done, before anybody waits for it. */
+double hc_gpu_stop(hc_gpu *gpu)
+{
+    glQueryCounter(gpu->stamps[1], GL_TIMESTAMP);
     glFinish();
-    const double by_clock = hc_clock_now() - start;
-    gpu->seconds += gpu->timer ? seconds_between(stamps) : by_clock;
-    glDeleteQueries(2, stamps);
+    const double by_clock = hc_clock_now() - gpu->started;
+    gpu->seconds += gpu->timer ? seconds_between(gpu->stamps) : by_clock;
+    glDeleteQueries(2, gpu->stamps);
     return by_clock;
+}
+
+double hc_gpu_run(hc_gpu *gpu, unsigned program, const int first[2], const int end[2])
+{
+    hc_gpu_warm_up(gpu, program);
+    hc_gpu_start(gpu);
+    hc_gpu_dispatch(program, first, end);
+    return hc_gpu_stop(gpu);
 }
 
 /* ---- textures ------------------------------------------------------------------------------- */
@@ -160,7 +174,7 @@ static hc_result try_weights(hc_gpu *gpu, bool l2, hc_log *log)
     if (result == HC_OK) {
         glBindImageTexture(0, textures[0], 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
         glUniform1i(glGetUniformLocation(program, "u_heights"), 0);
-        (void)hc_gpu_dispatch(gpu, program, first, end);
+        (void)hc_gpu_run(gpu, program, first, end);
         glBindTexture(GL_TEXTURE_2D, textures[0]);
         glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, weights);
         result      = hc_gl_check("trial of arithmetic", log);

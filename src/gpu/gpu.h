@@ -19,20 +19,19 @@ typedef enum hc_gpu_shader {
     HC_GPU_GRADIENT,
     HC_GPU_UPDATE,
     HC_GPU_RATIOS,
-    HC_GPU_CELLS,
-    HC_GPU_SHADERS
+    HC_GPU_CELLS
 } hc_gpu_shader;
 
 enum { HC_GPU_NAME_MAX = 128 };
 
 struct hc_gpu {
-    hc_gl_context context;
+    hc_gl_context context; /* first: gl/map.h */
     hc_map_baker  baker;
     char          name[HC_GPU_NAME_MAX];
     bool          rounds; /* tests may say that it does not */
     bool          timer;  /* the GPU's own times seconds; tests may choose */
-    double        seconds;
-    unsigned      programs[HC_GPU_SHADERS][2][2]; /* by l2, sided; 0: not compiled yet */
+    double        seconds, started;
+    unsigned      stamps[2]; /* from start to stop */
 };
 
 /* Make the context the thread's, and set seconds to 0. */
@@ -55,13 +54,19 @@ hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int heig
 hc_result hc_gpu_update_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
                                 hc_rect changed, hc_extreme extreme, hc_log *log);
 
-/* Drivers finish compiling when a program runs for the first time: have it done, with what is
- * bound. */
-void hc_gpu_warm_up(unsigned program);
+/* Work between these two counts: wait, add to seconds, and give the seconds that it took by the
+ * wall clock. */
+void   hc_gpu_start(hc_gpu *gpu);
+double hc_gpu_stop(hc_gpu *gpu);
 
-/* One dispatch over the texels first .. end - 1 of the program in use; waits, adds to seconds, and
- * gives the seconds that it took by the wall clock. */
-double hc_gpu_dispatch(hc_gpu *gpu, unsigned program, const int first[2], const int end[2]);
+/* Hand over one dispatch of the program in use, with what is bound, over the texels first .. end -
+ * 1. Drivers finish compiling when a program runs for the first time, so that must be asked for
+ * before the start. */
+void hc_gpu_warm_up(hc_gpu *gpu, unsigned program);
+void hc_gpu_dispatch(unsigned program, const int first[2], const int end[2]);
+
+/* Warm up, start, dispatch, stop. */
+double hc_gpu_run(hc_gpu *gpu, unsigned program, const int first[2], const int end[2]);
 
 void hc_gpu_set_pair(unsigned program, const char *name, int x, int y);
 

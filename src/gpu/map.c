@@ -35,8 +35,7 @@ static void run_over_all(const kept_map *map, unsigned program, unsigned out)
     const int end[2]   = { map->job.width, map->job.height };
     glBindImageTexture(1, out, 0, GL_FALSE, 0, GL_WRITE_ONLY,
                        map->job.channels == 1 ? GL_R32F : GL_RGBA32F);
-    hc_gpu_warm_up(program);
-    (void)hc_gpu_dispatch(map->gpu, program, first, end);
+    (void)hc_gpu_run(map->gpu, program, first, end);
 }
 
 static hc_result to_ratios(const kept_map *map)

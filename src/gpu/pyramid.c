@@ -17,6 +17,12 @@ static int block_of(int sample, int side, int level)
     return sample >> level < last ? sample >> level : last;
 }
 
+static void bind_levels(unsigned texture, int level)
+{
+    glBindImageTexture(0, texture, level, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
+    glBindImageTexture(1, texture, level - 1, GL_FALSE, 0, GL_READ_ONLY, GL_R32F);
+}
+
 hc_result hc_gpu_update_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,
                                 hc_rect changed, hc_extreme extreme, hc_log *log)
 {
@@ -29,18 +35,21 @@ hc_result hc_gpu_update_pyramid(hc_gpu *gpu, unsigned texture, int width, int he
     }
     hc_gpu_set_pair(program, "u_size", width, height);
     glUniform1i(glGetUniformLocation(program, "u_minimum"), extreme == HC_MINIMUM);
+    if (hc_pyramid_levels(width, height) < 2) {
+        return HC_OK;
+    }
+    bind_levels(texture, 1);
+    hc_gpu_warm_up(gpu, program);
+    hc_gpu_start(gpu);
     for (int level = 1; level < hc_pyramid_levels(width, height); level++) {
         const int first[2] = { block_of(changed.x, width, level),
                                block_of(changed.y, height, level) };
         const int end[2] = { block_of(right, width, level) + 1, block_of(low, height, level) + 1 };
         glUniform1i(glGetUniformLocation(program, "u_level"), level);
-        glBindImageTexture(0, texture, level, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
-        glBindImageTexture(1, texture, level - 1, GL_FALSE, 0, GL_READ_ONLY, GL_R32F);
-        if (level == 1) {
-            hc_gpu_warm_up(program);
-        }
-        (void)hc_gpu_dispatch(gpu, program, first, end);
+        bind_levels(texture, level);
+        hc_gpu_dispatch(program, first, end);
     }
+    (void)hc_gpu_stop(gpu);
     return hc_gl_check("pyramid", log);
 }
 

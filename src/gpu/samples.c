@@ -57,8 +57,7 @@ static hc_result run(const pass *p, unsigned program, float *values)
 {
     const int first[2] = { 0, 0 };
     const int last[2]  = { p->field->width, p->field->height };
-    hc_gpu_warm_up(program);
-    (void)hc_gpu_dispatch(p->gpu, program, first, last);
+    (void)hc_gpu_run(p->gpu, program, first, last);
     glActiveTexture(GL_TEXTURE0);
     glBindTexture(GL_TEXTURE_2D, p->out);
     glGetTexImage(GL_TEXTURE_2D, 0, GL_RED, GL_FLOAT, values);

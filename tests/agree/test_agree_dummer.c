@@ -85,11 +85,11 @@ static void draw_map(const hc_stage *stage, unsigned program)
     assert_int_equal(hc_gl_check("the map", NULL), HC_OK);
 }
 
-static unsigned build(const char *head)
+static unsigned build(hc_gl_context *context, const char *head)
 {
     unsigned program;
     hc_log   log = { .text = "" };
-    if (hc_gl_build_relief(&program, head, &log) != HC_OK) {
+    if (hc_gl_build_relief(&program, context, head, &log) != HC_OK) {
         fail_msg("%s", log.text);
     }
     return program;
@@ -174,11 +174,13 @@ static void the_map_is_read_as_it_is(void **state)
     to_codes(&cpu);
     assert_int_equal(hc_stage_set(&stage, &cpu, &scene, &options, &log), HC_OK);
     assert_int_equal(hc_gl_load(textures, &stage, &log), HC_OK);
-    draw_map(&stage,
-             build("#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"));
+    draw_map(
+        &stage,
+        build(&context, "#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"));
     expect_agreement(&stage, &cpu);
     expect_projected_depths(&stage);
-    draw_map(&stage, build("#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"
+    draw_map(&stage, build(&context,
+                           "#version 430 core\n#define HC_METHOD HC_CONE_LOOP\n#define HC_DUMMER\n"
                            "#define HC_GATHER\n"));
     expect_agreement(&stage, &cpu);
     hc_stage_clear(&stage);

@@ -181,15 +181,20 @@ static void refusals(void **state)
 
 enum { WIDE = 64, HIGH = 48, PIXELS = WIDE * HIGH };
 
-static void draw(float rgb[PIXELS * 3], const hc_scene *scene)
+static void draw_with(float rgb[PIXELS * 3], const hc_scene *scene, hc_view view, hc_gpu *in)
 {
-    const hc_render_options options = { .backend = HC_BACKEND_GL };
+    const hc_render_options options = { .backend = HC_BACKEND_GL, .view = view, .gpu = in };
     hc_log                  log     = { .text = "" };
     hc_picture              picture = { .width = WIDE, .height = HIGH, .rgb = rgb };
     if (hc_render(&picture, scene, &options, &log) != HC_OK) {
         fail_msg("%s", log.text);
     }
     assert_true(picture.figures.hits > 200);
+}
+
+static void draw(float rgb[PIXELS * 3], const hc_scene *scene)
+{
+    draw_with(rgb, scene, HC_VIEW_SHADED, NULL);
 }
 
 /* The same shader reads the same numbers; so the same floats, where this GPU rounds. */
@@ -251,6 +256,74 @@ static void pictures_are_those_of_the_cpus_maps(void **state)
     agree_free(&field);
 }
 
+/* Scenes that differ in all that a uniform or a texture says, for programs of few heads. */
+static void fill_scenes(hc_scene *scenes, int count, const hc_field *field, const float *ratios)
+{
+    static const float           albedo[2 * 2 * 3] = { 0.9F, 0.1F, 0.1F, 0.1F, 0.9F, 0.1F,
+                                                       0.1F, 0.1F, 0.9F, 0.9F, 0.9F, 0.1F };
+    static const hc_trace_method methods[]         = { HC_TRACE_CONE_EXACT, HC_TRACE_MAXMIP };
+    for (int i = 0; i < count; i++) {
+        const bool odd      = i % 2 == 1;
+        hc_scene  *scene    = &scenes[i];
+        hc_relief *relief   = &scene->relief;
+        *scene              = (hc_scene){ .light = { .lamp = odd, .no_shadows = i % 4 > 1 } };
+        relief->field       = *field;
+        relief->trace       = (hc_trace_options){ .method = methods[i / 8], .ratios = ratios };
+        relief->trace.steps = odd ? 7 : 0;
+        relief->body        = (hc_body)(i % 4);
+        relief->edge        = i == 4 ? HC_EDGE_CLAMP : HC_EDGE_WALL;
+        relief->depth       = odd ? 0.3F : 0.0F;
+        relief->fade[1] = relief->lod[1] = i % 8 > 5 ? 4.0F : 0.0F;
+        relief->repeat[0] = relief->repeat[1] = i % 8 == 3 ? 5 : 0;
+        scene->light.place[2]                 = odd ? 3.0 : 0.0;
+        scene->light.place[1]                 = odd ? -3.0 : 0.0;
+        scene->material.gloss                 = i % 8 == 2 ? 2 : 0;
+        scene->material.ambient               = i % 8 == 6 ? 0.8F : 0.0F;
+        scene->material.colour[1]             = i % 8 == 1 ? 0.9F : 0.0F;
+        scene->camera.orthographic            = i % 8 == 5 ? 3.0F : 0.0F;
+        if (i % 4 == 2) {
+            scene->material.albedo        = albedo;
+            scene->material.albedo_width  = 2;
+            scene->material.albedo_height = 2;
+        }
+    }
+}
+
+/* Programs stay, with all that was set for other scenes: a picture in a context of its own is the
+ * same. */
+static void pictures_do_not_depend_on_those_before(void **state)
+{
+    enum { SCENES = 16 };
+    static float alone[SCENES][PIXELS * 3], rgb[PIXELS * 3];
+    hc_scene     scenes[SCENES];
+    hc_field     fields[] = { agree_named_field("cobbles", 48, 40, 2, HC_WRAP_UV),
+                              agree_named_field("fbm", 33, 57, 2, HC_WRAP_UV) };
+    float       *ratios[2];
+    (void)state;
+    if (gpu == NULL) {
+        skip();
+    }
+    for (int k = 0; k < 2; k++) {
+        ratios[k] = agree_bake(&fields[k], &(hc_cone_options){ .cones = HC_CONES_L2 });
+        fill_scenes(scenes, SCENES, &fields[k], ratios[k]);
+        for (int i = k; i < SCENES; i += 2) {
+            draw_with(alone[i], &scenes[i], i % 5 == 4 ? HC_VIEW_MISSED : HC_VIEW_SHADED, NULL);
+        }
+    }
+    for (int turn = 0; turn < 2 * SCENES; turn++) {
+        const int i = turn < SCENES ? turn : 2 * SCENES - 1 - turn;
+        fill_scenes(scenes, SCENES, &fields[i % 2], ratios[i % 2]);
+        draw_with(rgb, &scenes[i], i % 5 == 4 ? HC_VIEW_MISSED : HC_VIEW_SHADED, gpu);
+        if (memcmp(rgb, alone[i], sizeof rgb) != 0) {
+            fail_msg("scene %d is another one after others", i);
+        }
+    }
+    for (int k = 0; k < 2; k++) {
+        free(ratios[k]);
+        agree_free(&fields[k]);
+    }
+}
+
 static void expect_refusal(const hc_scene *scene, const hc_render_options *options,
                            const char *says)
 {
@@ -295,6 +368,7 @@ int main(void)
         cmocka_unit_test(a_small_change_rebakes_little),
         cmocka_unit_test(refusals),
         cmocka_unit_test(pictures_are_those_of_the_cpus_maps),
+        cmocka_unit_test(pictures_do_not_depend_on_those_before),
         cmocka_unit_test(what_cannot_be_drawn),
     };
     return cmocka_run_group_tests_name("agree_gpu_map", tests, open_gpu, close_gpu);

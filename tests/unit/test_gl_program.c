@@ -18,16 +18,19 @@
 
 #ifdef HC_HAVE_GL
 
-static const hc_shader_text vertex[] = {
-    { "good.vert", "void main(void)\n{\n    gl_Position = vec4(0.0);\n}\n" }, { NULL, NULL }
-};
+#define HEAD "#version 430 core\n"
+#define GOOD_VERTEX                                                                                \
+    {                                                                                              \
+        {                                                                                          \
+            "good.vert", "void main(void)\n{\n    gl_Position = vec4(0.0);\n}\n"                   \
+        }                                                                                          \
+    }
 
-static void expect_complaint(const hc_shader_text *fragment, const char *says)
+static void expect_complaint(const hc_gl_recipe *recipe, const char *says)
 {
     unsigned program = 7;
     hc_log   log     = { .text = "" };
-    assert_int_equal(hc_gl_build(&program, "#version 430 core\n", vertex, fragment, &log),
-                     HC_ERROR_UNSUPPORTED);
+    assert_int_equal(hc_gl_build(&program, recipe, &log), HC_ERROR_UNSUPPORTED);
     assert_int_equal(program, 0);
     if (strstr(log.text, says) == NULL) {
         fail_msg("'%s' does not say '%s'", log.text, says);
@@ -96,24 +99,64 @@ static void a_texture_out_of_memory(void **state)
 
 static void complaints(void **state)
 {
-    static const hc_shader_text first[]  = { { "first.glsl",
-                                               "float f(void)\n{\n    return x;\n}\n" },
-                                             { "second.frag", "void main(void) { }\n" },
-                                             { NULL, NULL } };
-    static const hc_shader_text second[] = { { "first.glsl", "float f(void) { return 1.0; }\n" },
-                                             { "second.frag",
-                                               "void main(void)\n{\n\n    g();\n}\n" },
-                                             { NULL, NULL } };
-    static const hc_shader_text none[]   = { { "none.frag", "float f(void) { return 1.0; }\n" },
-                                             { NULL, NULL } };
-    hc_gl_context               context;
-    hc_log                      log = { .text = "" };
+    const hc_gl_recipe first   = { .head     = HEAD,
+                                   .vertex   = GOOD_VERTEX,
+                                   .fragment = {
+                                       { "first.glsl", "float f(void)\n{\n    return x;\n}\n" },
+                                       { "second.frag", "void main(void) { }\n" } } };
+    const hc_gl_recipe second  = { .head     = HEAD,
+                                   .vertex   = GOOD_VERTEX,
+                                   .fragment = {
+                                       { "first.glsl", "float f(void) { return 1.0; }\n" },
+                                       { "second.frag", "void main(void)\n{\n\n    g();\n}\n" } } };
+    const hc_gl_recipe none    = { .head     = HEAD,
+                                   .vertex   = GOOD_VERTEX,
+                                   .fragment = { { "none.frag", "float f(void);\n" } } };
+    const hc_gl_recipe compute = {
+        .head = HEAD, .compute = { { "first.comp", "void main(void) { x = 1; }\n" } }
+    };
+    hc_gl_context context;
+    hc_log        log = { .text = "" };
     (void)state;
     open_or_skip(&context);
-    expect_complaint(first, "shader first.glsl, line 3 ");
-    expect_complaint(second, "shader second.frag, line 4 ");
-    expect_complaint(none, "link");
+    expect_complaint(&first, "shader first.glsl, line 3 ");
+    expect_complaint(&second, "shader second.frag, line 4 ");
+    expect_complaint(&none, "link");
+    expect_complaint(&compute, "shader first.comp, line 1 ");
     assert_int_equal(hc_gl_check("nothing", &log), HC_OK);
+    hc_gl_close(&context);
+}
+
+/* The same recipe is the same program, another head or file another one, and what does not compile
+ * is not kept. */
+static void programs_are_kept(void **state)
+{
+    hc_gl_recipe  recipe = { .head     = HEAD,
+                             .vertex   = GOOD_VERTEX,
+                             .fragment = { { "a.frag", "void main(void) { }\n" } } };
+    hc_gl_context context;
+    unsigned      first, other, again;
+    hc_log        log = { .text = "" };
+    (void)state;
+    open_or_skip(&context);
+    assert_int_equal(hc_gl_program_of(&first, &context, &recipe, &log), HC_OK);
+    assert_true(hc_gl_first_run(&context, first));
+    recipe.head = HEAD "#define A\n";
+    assert_int_equal(hc_gl_program_of(&other, &context, &recipe, &log), HC_OK);
+    assert_int_not_equal(other, first);
+    recipe.head             = HEAD;
+    recipe.fragment[0].name = "b.frag";
+    assert_int_equal(hc_gl_program_of(&other, &context, &recipe, &log), HC_OK);
+    assert_int_not_equal(other, first);
+    assert_true(hc_gl_first_run(&context, other));
+    recipe.fragment[0].name = "a.frag";
+    assert_int_equal(hc_gl_program_of(&again, &context, &recipe, &log), HC_OK);
+    assert_int_equal(again, first);
+    assert_false(hc_gl_first_run(&context, again));
+    recipe.fragment[0] = (hc_shader_text){ "c.frag", "x\n" };
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(hc_gl_program_of(&again, &context, &recipe, &log), HC_ERROR_UNSUPPORTED);
+    }
     hc_gl_close(&context);
 }
 
@@ -140,6 +183,7 @@ int main(void)
 #ifdef HC_HAVE_GL
         cmocka_unit_test(verdicts),
         cmocka_unit_test(a_texture_out_of_memory),
+        cmocka_unit_test(programs_are_kept),
 #endif
         cmocka_unit_test(complaints),
     };

@@ -51,8 +51,8 @@ static hc_result bake_by_cpu(hc_cli_animation *a, hc_cli *cli, const hc_field *f
 static bool stays_on_gpu(const hc_cli_animation *a, const hc_cli *cli)
 {
     const hc_view view = cli->settings.render.view;
-    return cli->settings.backend == HC_CLI_GL && a->needs != HC_NEEDS_NOTHING
-           && view != HC_VIEW_MISSED && view != HC_VIEW_ERROR;
+    return a->gpu != NULL && a->needs != HC_NEEDS_NOTHING && view != HC_VIEW_MISSED
+           && view != HC_VIEW_ERROR;
 }
 
 static hc_result bake_by_gpu(hc_cli_animation *a, hc_cli *cli, const hc_field *field,
@@ -60,15 +60,9 @@ static hc_result bake_by_gpu(hc_cli_animation *a, hc_cli *cli, const hc_field *f
 {
     const hc_gpu_map_options options = { .cone  = options_of(a, cli),
                                          .cells = a->needs == HC_NEEDS_CELL_RATIOS };
-    hc_result                result  = HC_OK;
-    if (a->gpu == NULL) {
-        result = hc_gpu_create(&a->gpu, &cli->log);
-    }
-    if (result == HC_OK && a->map == NULL) {
-        result = hc_gpu_map_create(&a->map, a->gpu, field, &options, &cli->log);
-    } else if (result == HC_OK) {
-        result = hc_gpu_map_update(a->map, field->heights, changed, NULL, &cli->log);
-    }
+    const hc_result          result =
+        a->map == NULL ? hc_gpu_map_create(&a->map, a->gpu, field, &options, &cli->log)
+                                : hc_gpu_map_update(a->map, field->heights, changed, NULL, &cli->log);
     a->relief->scene.relief.baked = a->map;
     return result;
 }
@@ -112,14 +106,15 @@ void hc_cli_animation_end(hc_cli_animation *animation)
 
 static hc_result bake(hc_cli_animation *a, hc_cli *cli, hc_rect changed)
 {
-    const hc_field *field = &a->relief->scene.relief.field;
-    if (a->needs == HC_NEEDS_NOTHING) {
-        return HC_OK;
+    const hc_field *field  = &a->relief->scene.relief.field;
+    hc_result       result = HC_OK;
+    if (a->gpu == NULL && cli->settings.backend == HC_CLI_GL) {
+        result = hc_gpu_create(&a->gpu, &cli->log);
     }
-    if (!stays_on_gpu(a, cli)) {
-        return bake_by_cpu(a, cli, field, changed);
+    if (result == HC_OK && a->needs != HC_NEEDS_NOTHING) {
+        result = stays_on_gpu(a, cli) ? bake_by_gpu(a, cli, field, changed)
+                                      : bake_by_cpu(a, cli, field, changed);
     }
-    const hc_result result = bake_by_gpu(a, cli, field, changed);
     return hc_cli_falls_back(cli, result, "bakes and draws") ? hc_cli_animation_to_cpu(a, cli)
                                                              : result;
 }

@@ -13,8 +13,8 @@ typedef struct hc_cli_animation {
     float         *heights, *scratch;
     float         *ratios, *cells; /* the CPU's */
     hc_cone_baker *baker;
-    hc_gpu        *gpu; /* where the map stays on it */
-    hc_gpu_map    *map;
+    hc_gpu        *gpu; /* with --backend gl: what draws */
+    hc_gpu_map    *map; /* where it stays there          */
 } hc_cli_animation;
 
 /* Memory for a relief that was loaded. Returns the exit code. hc_cli_animation_end must follow,

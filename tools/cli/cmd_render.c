@@ -198,10 +198,12 @@ static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_cli_animation
                                                                               : HC_BACKEND_CPU,
                                    .top      = settings->render.top,
                                    .threads  = settings->threads,
-                                   .progress = hc_cli_progress(cli) };
+                                   .progress = hc_cli_progress(cli),
+                                   .gpu      = animation != NULL ? animation->gpu : NULL };
     hc_result         result   = hc_render(picture, &relief->scene, &options, &cli->log);
     if (hc_cli_falls_back(cli, result, "draws")) {
         options.backend = HC_BACKEND_CPU;
+        options.gpu     = NULL;
         result          = animation != NULL ? hc_cli_animation_to_cpu(animation, cli) : HC_OK;
         result = result == HC_OK ? hc_render(picture, &relief->scene, &options, &cli->log) : result;
     }

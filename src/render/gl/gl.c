@@ -11,18 +11,19 @@
 #include <stdio.h>
 
 typedef struct canvas {
-    hc_gl_context context; /* its own, unless the map on the GPU has one */
-    bool          there;   /* one of them is the thread's                */
-    unsigned      textures[HC_GL_TEXTURES];
-    hc_bands      bands;
+    hc_gl_context  own;
+    hc_gl_context *context; /* its own, or one that was lent  */
+    bool           there;   /* it is the thread's             */
+    unsigned       textures[HC_GL_TEXTURES];
+    hc_bands       bands;
 } canvas;
 
-static hc_result build(unsigned *program, const hc_stage *stage, hc_trace_method method,
-                       hc_log *log)
+static hc_result build(unsigned *program, const canvas *c, const hc_stage *stage,
+                       hc_trace_method method, hc_log *log)
 {
     char head[128];
     hc_gl_head(head, sizeof head, method, stage->scene.relief.trace.cones);
-    const hc_result result = hc_gl_build_relief(program, head, log);
+    const hc_result result = hc_gl_build_relief(program, c->context, head, log);
     if (result == HC_OK) {
         glUseProgram(*program);
         hc_gl_set(*program, stage, method);
@@ -30,19 +31,27 @@ static hc_result build(unsigned *program, const hc_stage *stage, hc_trace_method
     return result;
 }
 
+static hc_result take_context(canvas *c, const hc_stage *stage, hc_log *log)
+{
+    const struct hc_gpu_map *map = stage->scene.relief.baked;
+    hc_gl_context *lent    = map != NULL ? map->context : hc_gl_context_of(stage->options.gpu);
+    c->context             = lent != NULL ? lent : &c->own;
+    const hc_result result = lent != NULL ? hc_gl_use(lent, log) : hc_gl_open(&c->own, log);
+    c->there               = result == HC_OK;
+    return result;
+}
+
 static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
 {
-    const hc_trace_method    method = stage->scene.relief.trace.method;
-    const struct hc_gpu_map *map    = stage->scene.relief.baked;
-    hc_result result = map != NULL ? hc_gl_use(map->context, log) : hc_gl_open(&c->context, log);
-    c->there         = result == HC_OK;
-    result           = result != HC_OK ? result : hc_gl_load(c->textures, stage, log);
+    const hc_trace_method method = stage->scene.relief.trace.method;
+    hc_result             result = take_context(c, stage, log);
+    result                       = result != HC_OK ? result : hc_gl_load(c->textures, stage, log);
     if (result == HC_OK) {
         result = hc_bands_make(&c->bands, stage->width, stage->height, HC_GL_TEXTURES, log);
     }
-    result = result != HC_OK ? result : build(&c->bands.program, stage, method, log);
+    result = result != HC_OK ? result : build(&c->bands.program, c, stage, method, log);
     if (result == HC_OK && hc_view_compares(stage->options.view)) {
-        result = build(&c->bands.exact, stage, HC_TRACE_MAXMIP, log);
+        result = build(&c->bands.exact, c, stage, HC_TRACE_MAXMIP, log);
     }
     if (result == HC_OK) {
         hc_bands_warm(&c->bands);
@@ -53,13 +62,11 @@ static hc_result make(canvas *c, const hc_stage *stage, hc_log *log)
 static void unmake(canvas *c)
 {
     if (c->there) {
-        glDeleteProgram(c->bands.program);
-        glDeleteProgram(c->bands.exact);
         glDeleteTextures(HC_GL_TEXTURES, c->textures);
         hc_bands_free(&c->bands);
     }
-    if (c->context.display != NULL) {
-        hc_gl_close(&c->context);
+    if (c->context == &c->own) {
+        hc_gl_close(&c->own);
     }
 }
 

@@ -188,7 +188,8 @@ static hc_result build(unsigned *program, const hc_terrain *terrain, const char 
                        : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
                                                                                : "RAYS";
     (void)snprintf(head + strlen(head), sizeof head - strlen(head), "#define %s\n", part);
-    const hc_result result = hc_upload_program(program, head, before, "terrain.frag", log);
+    const hc_gl_recipe recipe = hc_gl_recipe_of(head, before, "terrain.frag");
+    const hc_result    result = hc_gl_build(program, &recipe, log);
     if (result == HC_OK) {
         glUseProgram(*program);
         set_scene(*program, terrain, exact);

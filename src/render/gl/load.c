@@ -1,7 +1,5 @@
 #include "load.h"
 
-#include "gl/program.h"
-
 #include <math.h>
 
 /* ---- textures ------------------------------------------------------------------------------ */
@@ -104,7 +102,9 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
 
 /* ---- the program ---------------------------------------------------------------------------- */
 
-hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log)
+hc_result hc_gl_build_relief(unsigned *program, hc_gl_context *context, const char *head,
+                             hc_log *log)
 {
-    return hc_upload_program(program, head, "screen.vert", "relief.frag", log);
+    const hc_gl_recipe recipe = hc_gl_recipe_of(head, "screen.vert", "relief.frag");
+    return hc_gl_program_of(program, context, &recipe, log);
 }

@@ -18,10 +18,11 @@ enum {
 /* textures [out] names, by texture unit. */
 hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, hc_log *log);
 
-/* relief.frag behind heightcast.glsl, with `head` before it. */
-hc_result hc_gl_build_relief(unsigned *program, const char *head, hc_log *log);
+/* relief.frag behind heightcast.glsl, with `head` before it: a program of `context`. */
+hc_result hc_gl_build_relief(unsigned *program, hc_gl_context *context, const char *head,
+                             hc_log *log);
 
-/* Uniforms of the program in use that do not change while a picture is drawn. */
+/* All uniforms of the program in use that do not change while a picture is drawn. */
 void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method);
 
 #endif

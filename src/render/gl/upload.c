@@ -1,7 +1,6 @@
 #include "upload.h"
 
 #include "gl/context.h"
-#include "gl/program.h"
 
 #include <epoxy/gl.h>
 
@@ -138,13 +137,11 @@ void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones)
         hc_gl_method(method), cones == HC_CONES_L1 ? 1 : 4);
 }
 
-hc_result hc_upload_program(unsigned *program, const char *head, const char *before,
-                            const char *name, hc_log *log)
+hc_gl_recipe hc_gl_recipe_of(const char *head, const char *before, const char *name)
 {
-    const hc_shader_text vertex[]   = { { before, hc_shader_text_named(before) }, { NULL, NULL } };
-    const hc_shader_text fragment[] = { { "heightcast.glsl",
-                                          hc_shader_text_named("heightcast.glsl") },
-                                        { name, hc_shader_text_named(name) },
-                                        { NULL, NULL } };
-    return hc_gl_build(program, head, vertex, fragment, log);
+    return (
+        hc_gl_recipe){ .head     = head,
+                       .vertex   = { { before, hc_shader_text_named(before) } },
+                       .fragment = { { "heightcast.glsl", hc_shader_text_named("heightcast.glsl") },
+                                     { name, hc_shader_text_named(name) } } };
 }

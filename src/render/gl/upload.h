@@ -5,6 +5,7 @@
 #include "../eye.h"
 
 #include "gl/map.h"
+#include "gl/program.h"
 
 /* ---- textures: *texture is a new name, bound to `unit` ---- */
 
@@ -39,7 +40,6 @@ void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones)
 
 /* The vertex shader `before`, and the fragment shader `name` behind heightcast.glsl, with `head`
  * before both. */
-hc_result hc_upload_program(unsigned *program, const char *head, const char *before,
-                            const char *name, hc_log *log);
+hc_gl_recipe hc_gl_recipe_of(const char *head, const char *before, const char *name);
 
 #endif
