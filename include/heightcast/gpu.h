@@ -1,4 +1,4 @@
-/* Baking on the GPU, by compute shaders of OpenGL 4.3 (shaders/bake.comp). In libheightcast-render,
+/* Baking on the GPU, by compute shaders of OpenGL 4.3 (shaders/bake*.comp). In libheightcast-render,
  * which has all that needs OpenGL; without a GPU Mesa's software renderer does it.
  *
  *     hc_gpu *gpu;
@@ -41,9 +41,10 @@ HC_API const char *hc_gpu_timer(const hc_gpu *gpu); /* static */
 /* As hc_bake_cone_map. Of the options, isa and threads do not count.
  *
  * Every method but ring, which is the CPU's alone: HC_ERROR_UNSUPPORTED. Work is given to
- * the driver in pieces that take about a twentieth of a second, and reported after each.
- * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); the same once, and 9.4 bytes,
- * on the GPU. Errors besides: HC_ERROR_LIMIT for fields larger than the driver's textures;
+ * the driver in pieces that take about a twentieth of a second, and reported after each; in one
+ * piece no search takes more than 1,024 steps, and no more than 2^20 are run.
+ * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); on the GPU 14 bytes per sample,
+ * and 20 for each of the first 2^20. Errors besides: HC_ERROR_LIMIT for fields larger than the driver's textures;
  * HC_ERROR_MEMORY, on the GPU too; HC_ERROR_IO if the context is lost. */
 HC_API hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field,
                                       const hc_cone_options *options, hc_log *log);
@@ -74,8 +75,8 @@ typedef struct hc_gpu_map_options {
 
 /* Bake `field`, of which nothing is borrowed; options NULL: all zero. Errors as
  * hc_gpu_bake_cone_map. Destroy with hc_gpu_map_destroy, which accepts NULL.
- * Memory: 4 bytes per sample; on the GPU 9.4, 4 per search (falling-edge 1) and 4 per channel (3
- * count as 4), with cells twice. */
+ * Memory: 4 bytes per sample; on the GPU 10, 4 per search (falling-edge 1) and 4 per channel (3
+ * count as 4), with cells twice; and 20 for each of the first 2^20. */
 HC_API hc_result hc_gpu_map_create(hc_gpu_map **map, hc_gpu *gpu, const hc_field *field,
                                    const hc_gpu_map_options *options, hc_log *log);
 HC_API void      hc_gpu_map_destroy(hc_gpu_map *map);

@@ -11,6 +11,7 @@
 
 enum {
     ROWS_AT_FIRST = 16,
+    WAITING_ROW   = 1024,    /* searches that go on */
     BRUTE_TEXELS  = 1 << 14, /* of a dispatch that looks at all samples */
     FALLING       = 4        /* searches of relaxed cones */
 };
@@ -45,18 +46,42 @@ static int least(int a, int b)
     return a < b ? a : b;
 }
 
-/* All texels, some rows at a time. */
-static hc_result run_rows(const hc_gpu_baking *b, unsigned program)
+/* Searches that took more looks than one dispatch allows. */
+static hc_result go_on(const hc_gpu_baking *b, unsigned program, double share)
 {
+    const int waiting  = (int)hc_gpu_count(b, HC_GPU_UNFINISHED);
+    const int first[2] = { 0, 0 };
+    const int end[2]   = { WAITING_ROW, (waiting + WAITING_ROW - 1) / WAITING_ROW };
+    hc_result result   = HC_OK;
+    glUniform1i(glGetUniformLocation(program, "u_resume"), 1);
+    glUniform1i(glGetUniformLocation(program, "u_waiting"), waiting);
+    for (int left = waiting; left > 0 && result == HC_OK;) {
+        hc_gpu_set_count(b, HC_GPU_UNFINISHED, 0);
+        (void)hc_gpu_run(b->gpu, program, first, end);
+        left   = (int)hc_gpu_count(b, HC_GPU_UNFINISHED);
+        result = hc_gl_check("baking", b->job->log);
+        result = result == HC_OK ? report(b, share) : result;
+    }
+    glUniform1i(glGetUniformLocation(program, "u_resume"), 0);
+    return result;
+}
+
+/* All texels, some rows at a time. */
+static hc_result run_rows(const hc_gpu_baking *b, unsigned program, bool pruned)
+{
+    const int most   = HC_GPU_WAITING_MAX / least(b->job->width, HC_GPU_WAITING_MAX);
     hc_result result = HC_OK;
     int       rows   = ROWS_AT_FIRST;
     for (int y = 0; y < b->job->height && result == HC_OK;) {
         const int first[2] = { 0, y };
-        const int end[2]   = { b->job->width, least(y + rows, b->job->height) };
+        const int end[2]   = { b->job->width, least(y + least(rows, most), b->job->height) };
         rows               = paced(rows, hc_gpu_run(b->gpu, program, first, end));
-        y                  = end[1];
         result             = hc_gl_check("baking", b->job->log);
-        result             = result == HC_OK ? report(b, (double)y / b->job->height) : result;
+        if (result == HC_OK && pruned) {
+            result = go_on(b, program, (double)y / b->job->height);
+        }
+        y      = end[1];
+        result = result == HC_OK ? report(b, (double)y / b->job->height) : result;
     }
     return result;
 }
@@ -111,7 +136,11 @@ static void set_search(const hc_gpu_baking *b, unsigned program)
     glUniform1i(glGetUniformLocation(program, "u_levels"),
                 hc_pyramid_levels(b->job->width, b->job->height));
     glUniform1i(glGetUniformLocation(program, "u_heights"), HC_GPU_HEIGHTS_UNIT);
-    glUniform1i(glGetUniformLocation(program, "u_highest"), HC_GPU_HIGHEST_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_highest"), HC_GPU_BLOCKS_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_families"), HC_GPU_BLOCKS_UNIT);
+    glUniform1i(glGetUniformLocation(program, "u_top_level"), hc_gpu_top_level(b));
+    glUniform1i(glGetUniformLocation(program, "u_looks"), b->gpu->looks);
+    glUniform1i(glGetUniformLocation(program, "u_resume"), 0);
     glUniform1i(glGetUniformLocation(program, "u_improved"), improved);
     glUniform1i(glGetUniformLocation(program, "u_gems_steps"), b->job->gems_steps);
     glUniform1i(glGetUniformLocation(program, "u_centre"), centre);
@@ -122,23 +151,6 @@ static void set_search(const hc_gpu_baking *b, unsigned program)
 static void bind_best(unsigned texture)
 {
     glBindImageTexture(HC_GPU_BEST_UNIT, texture, 0, GL_FALSE, 0, GL_READ_WRITE, GL_R32F);
-}
-
-/* The samples that limit the quadrant's relaxed cones, in place of all. */
-static hc_result keep_falling(const hc_gpu_baking *b)
-{
-    const int       first[2] = { 0, 0 };
-    const int       end[2]   = { b->job->width, b->job->height };
-    unsigned        program;
-    const hc_result result = hc_gpu_use(b->gpu, &program, HC_GPU_FALLING, b->l2, true, b->job->log);
-    if (result != HC_OK) {
-        return result;
-    }
-    set_search(b, program);
-    bind_best(b->highest);
-    (void)hc_gpu_run(b->gpu, program, first, end);
-    return hc_gpu_fill_pyramid(b->gpu, b->highest, b->job->width, b->job->height, HC_MAXIMUM,
-                               b->job->log);
 }
 
 static void set_change(unsigned program, const hc_gpu_change *change)
@@ -177,11 +189,11 @@ static hc_gpu_shader shader_of(const hc_gpu_baking *b)
 hc_result hc_gpu_search(const hc_gpu_baking *b)
 {
     const bool sided = b->searches[b->current].sign_u != 0;
-    const bool brute = b->method == HC_METHOD_BRUTE;
     unsigned   program;
     hc_result  result = HC_OK;
-    if (b->method == HC_METHOD_FALLING_EDGE) {
-        result = keep_falling(b);
+    if (hc_gpu_walks(b->method) == HC_GPU_LIMITING) {
+        const hc_rect all = { 0, 0, b->job->width, b->job->height };
+        result            = hc_gpu_fill_blocks(b, all);
     }
     if (result == HC_OK) {
         result = hc_gpu_use(b->gpu, &program, shader_of(b), b->l2, sided, b->job->log);
@@ -194,10 +206,13 @@ hc_result hc_gpu_search(const hc_gpu_baking *b)
         set_change(program, b->change);
     }
     bind_best(b->best);
-    return brute ? run_brute(b, program) : run_rows(b, program);
+    if (b->method == HC_METHOD_BRUTE) {
+        return run_brute(b, program);
+    }
+    return run_rows(b, program, hc_gpu_walks(b->method) >= HC_GPU_ALL);
 }
 
-/* ---- planning and loading ------------------------------------------------------------------- */
+/* ---- planning ------------------------------------------------------------------------------- */
 
 /* Relaxed cones are searched by quadrants, too. */
 hc_gpu_baking hc_gpu_plan(hc_gpu *gpu, const hc_cone_job *job, const hc_cone_options *options)
@@ -221,34 +236,6 @@ hc_gpu_baking hc_gpu_plan(hc_gpu *gpu, const hc_cone_job *job, const hc_cone_opt
 int hc_gpu_finds(const hc_gpu_baking *b)
 {
     return b->method == HC_METHOD_FALLING_EDGE ? 1 : b->count;
-}
-
-hc_result hc_gpu_load(hc_gpu_baking *b)
-{
-    const hc_cone_job *job     = b->job;
-    const int          levels  = hc_pyramid_levels(job->width, job->height);
-    const bool         relaxed = b->method == HC_METHOD_FALLING_EDGE;
-    glActiveTexture(GL_TEXTURE0 + HC_GPU_HEIGHTS_UNIT);
-    hc_result result =
-        hc_gpu_texture(&b->heights, job->width, job->height, 1, job->heights, job->log);
-    if (result == HC_OK) {
-        glActiveTexture(GL_TEXTURE0 + HC_GPU_HIGHEST_UNIT);
-        result = hc_gpu_texture(&b->highest, job->width, job->height, levels,
-                                relaxed ? NULL : job->heights, job->log);
-    }
-    if (result == HC_OK && !relaxed) {
-        result =
-            hc_gpu_fill_pyramid(b->gpu, b->highest, job->width, job->height, HC_MAXIMUM, job->log);
-    }
-    return result;
-}
-
-void hc_gpu_bind(const hc_gpu_baking *b)
-{
-    glActiveTexture(GL_TEXTURE0 + HC_GPU_HEIGHTS_UNIT);
-    glBindTexture(GL_TEXTURE_2D, b->heights);
-    glActiveTexture(GL_TEXTURE0 + HC_GPU_HIGHEST_UNIT);
-    glBindTexture(GL_TEXTURE_2D, b->highest);
 }
 
 /* ---- ratios, read back ---------------------------------------------------------------------- */
@@ -294,8 +281,7 @@ static hc_result bake(hc_gpu_baking *b, float *steepness)
         write_ratios(b, steepness);
     }
     glDeleteTextures(1, &b->best);
-    glDeleteTextures(1, &b->heights);
-    glDeleteTextures(1, &b->highest);
+    hc_gpu_unload(b);
     return result;
 }
 

@@ -11,9 +11,21 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TRIAL_SIDE = 64, TRIALS = TRIAL_SIDE * TRIAL_SIDE, GROUP = 8 };
+enum { TRIAL_SIDE = 64, TRIALS = TRIAL_SIDE * TRIAL_SIDE, GROUP = 8, LOOKS = 1024 };
 
 /* ---- programs ------------------------------------------------------------------------------- */
+
+static const char *part_of(hc_gpu_shader shader)
+{
+    switch (shader) {
+    case HC_GPU_BRUTE:
+    case HC_GPU_EXACT:
+    case HC_GPU_UPDATE:
+    case HC_GPU_GEMS: return "bake_search.comp";
+    case HC_GPU_QUICK: return "bake_quick.comp";
+    default: return "bake_samples.comp";
+    }
+}
 
 hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool l2, bool sided,
                      hc_log *log)
@@ -22,11 +34,12 @@ hc_result hc_gpu_use(hc_gpu *gpu, unsigned *program, hc_gpu_shader shader, bool 
     (void)snprintf(head, sizeof head,
                    "#version 430 core\n#define HC_BAKE %d\n#define HC_L2 %d\n#define HC_SIDED %d\n",
                    (int)shader, l2 ? 1 : 0, sided ? 1 : 0);
-    const hc_gl_recipe recipe = {
-        .head = head, .compute = { { "bake.comp", hc_shader_text_named("bake.comp") } }
-    };
-    *program               = 0;
-    const hc_result result = hc_gl_program_of(program, &gpu->context, &recipe, log);
+    const char        *part   = part_of(shader);
+    const hc_gl_recipe recipe = { .head    = head,
+                                  .compute = { { "bake.comp", hc_shader_text_named("bake.comp") },
+                                               { part, hc_shader_text_named(part) } } };
+    *program                  = 0;
+    const hc_result result    = hc_gl_program_of(program, &gpu->context, &recipe, log);
     glUseProgram(*program);
     return result;
 }
@@ -129,7 +142,7 @@ hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, c
     return make_texture(texture, GL_R32F, width, height, levels, values, log);
 }
 
-hc_result hc_gpu_ratio_texture(unsigned *texture, int width, int height, int channels, hc_log *log)
+hc_result hc_gpu_empty_texture(unsigned *texture, int width, int height, int channels, hc_log *log)
 {
     return make_texture(texture, channels == 1 ? GL_R32F : GL_RGBA32F, width, height, 1, NULL, log);
 }
@@ -206,6 +219,7 @@ hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log)
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for a context");
     }
     made->rounds     = true;
+    made->looks      = LOOKS;
     hc_result result = hc_gl_open(&made->context, log);
     if (result == HC_OK) {
         (void)snprintf(made->name, sizeof made->name, "%s", (const char *)glGetString(GL_RENDERER));

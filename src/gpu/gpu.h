@@ -12,7 +12,7 @@ typedef enum hc_gpu_shader {
     HC_GPU_BRUTE,
     HC_GPU_EXACT,
     HC_GPU_QUICK,
-    HC_GPU_FALLING,
+    HC_GPU_FAMILIES,
     HC_GPU_ROUNDING,
     HC_GPU_GEMS,
     HC_GPU_BOUNDS,
@@ -30,6 +30,7 @@ struct hc_gpu {
     char          name[HC_GPU_NAME_MAX];
     bool          rounds; /* tests may say that it does not */
     bool          timer;  /* the GPU's own times seconds; tests may choose */
+    int           looks;  /* at families in one dispatch for one texel; tests may choose */
     double        seconds, started;
     unsigned      stamps[2]; /* from start to stop */
 };
@@ -46,7 +47,7 @@ hc_result hc_gpu_texture(unsigned *texture, int width, int height, int levels, c
                          hc_log *log);
 
 /* Of one or of four floats, undefined. */
-hc_result hc_gpu_ratio_texture(unsigned *texture, int width, int height, int channels, hc_log *log);
+hc_result hc_gpu_empty_texture(unsigned *texture, int width, int height, int channels, hc_log *log);
 
 /* Level 0 is there: all above it; or what lies above a rectangle of it. */
 hc_result hc_gpu_fill_pyramid(hc_gpu *gpu, unsigned texture, int width, int height,

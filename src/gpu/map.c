@@ -18,8 +18,7 @@ typedef struct kept_map {
     float            *heights;
     float             max_ratio;
     unsigned          found[HC_CONE_SEARCHES_MAX];
-    unsigned          samples; /* ratios of samples                   */
-    unsigned          counter; /* of searches: a buffer of one number */
+    unsigned          samples; /* ratios of samples */
 } kept_map;
 
 static size_t samples_of(const kept_map *map)
@@ -79,21 +78,6 @@ static hc_result to_cells(const kept_map *map)
 
 /* ---- searches ------------------------------------------------------------------------------- */
 
-static uint32_t take_count(const kept_map *map)
-{
-    GLuint counted = 0;
-    glBindBuffer(GL_ATOMIC_COUNTER_BUFFER, map->counter);
-    glGetBufferSubData(GL_ATOMIC_COUNTER_BUFFER, 0, sizeof counted, &counted);
-    return counted;
-}
-
-static void set_count(const kept_map *map, uint32_t count)
-{
-    const GLuint set = count;
-    glBindBufferBase(GL_ATOMIC_COUNTER_BUFFER, 0, map->counter);
-    glBufferData(GL_ATOMIC_COUNTER_BUFFER, sizeof set, &set, GL_DYNAMIC_READ);
-}
-
 /* *searched: how many searches of a sample were run. */
 static hc_result search_all(kept_map *map, size_t *searched)
 {
@@ -103,11 +87,14 @@ static hc_result search_all(kept_map *map, size_t *searched)
     *searched = 0;
     for (b->current = 0; b->current < b->count && result == HC_OK; b->current++) {
         b->best = map->found[hc_gpu_finds(b) == 1 ? 0 : b->current];
-        set_count(map, 0);
+        if (b->change != NULL) {
+            hc_gpu_set_count(b, HC_GPU_SEARCHED, 0);
+        }
         result = hc_gpu_search(b);
-        *searched += b->change != NULL ? take_count(map) : samples_of(map);
+        *searched += b->change != NULL ? hc_gpu_count(b, HC_GPU_SEARCHED) : samples_of(map);
     }
-    result = result == HC_OK ? to_ratios(map) : result;
+    b->current = 0;
+    result     = result == HC_OK ? to_ratios(map) : result;
     return result == HC_OK && map->shown.cells ? to_cells(map) : result;
 }
 
@@ -123,13 +110,12 @@ static hc_result take_textures(kept_map *map)
     }
     if (result == HC_OK) {
         result =
-            hc_gpu_ratio_texture(&map->samples, job->width, job->height, job->channels, job->log);
+            hc_gpu_empty_texture(&map->samples, job->width, job->height, job->channels, job->log);
     }
     if (result == HC_OK && map->shown.cells) {
-        result = hc_gpu_ratio_texture(&map->shown.ratios, job->width, job->height, job->channels,
+        result = hc_gpu_empty_texture(&map->shown.ratios, job->width, job->height, job->channels,
                                       job->log);
     }
-    glGenBuffers(1, &map->counter);
     result             = result == HC_OK ? hc_gpu_load(&map->baking) : result;
     map->shown.heights = map->baking.heights;
     map->shown.ratios  = map->shown.cells ? map->shown.ratios : map->samples;
@@ -201,9 +187,7 @@ void hc_gpu_map_destroy(hc_gpu_map *map)
     if (kept != NULL && kept->gpu != NULL && hc_gl_use(&kept->gpu->context, NULL) == HC_OK) {
         glDeleteTextures(HC_CONE_SEARCHES_MAX, kept->found);
         glDeleteTextures(1, &kept->samples);
-        glDeleteTextures(1, &kept->baking.heights);
-        glDeleteTextures(1, &kept->baking.highest);
-        glDeleteBuffers(1, &kept->counter);
+        hc_gpu_unload(&kept->baking);
         if (kept->shown.cells) {
             glDeleteTextures(1, &kept->shown.ratios);
         }
@@ -237,11 +221,12 @@ static hc_result take_over(kept_map *map, const float *heights, hc_rect r)
     const size_t width  = (size_t)map->job.width;
     hc_result    result = HC_OK;
     upload(map, map->baking.heights, heights, r);
-    if (map->baking.method != HC_METHOD_FALLING_EDGE) {
-        upload(map, map->baking.highest, heights, r);
+    if (hc_gpu_walks(map->baking.method) == HC_GPU_MIPS) {
+        upload(map, map->baking.blocks, heights, r);
+    }
+    if (hc_gpu_walks(map->baking.method) != HC_GPU_LIMITING) {
         hc_gpu_bind(&map->baking);
-        result = hc_gpu_update_pyramid(map->gpu, map->baking.highest, map->job.width,
-                                       map->job.height, r, HC_MAXIMUM, map->job.log);
+        result = hc_gpu_fill_blocks(&map->baking, r);
     }
     for (size_t y = (size_t)r.y; y < (size_t)(r.y + r.height); y++) {
         const size_t first = y * width + (size_t)r.x;

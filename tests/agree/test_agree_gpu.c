@@ -15,7 +15,7 @@
 
 #include <cmocka.h>
 
-enum { SAMPLES_MAX = 64 * 64, CHANNELS_MAX = 4 };
+enum { SAMPLES_MAX = 5000 * 3, CHANNELS_MAX = 4 };
 
 static float heights[SAMPLES_MAX];
 static float by_cpu[SAMPLES_MAX * CHANNELS_MAX], by_gpu[SAMPLES_MAX * CHANNELS_MAX];
@@ -148,6 +148,71 @@ static void drivers_that_do_not_round(void **state)
     expect_ratios(&field, &options, false);
     assert_true(by_gpu[5] < by_cpu[5]); /* the seam works */
     gpu->rounds = before;
+#endif
+}
+
+/* As many levels as there are in large fields. */
+static void long_fields(void **state)
+{
+    (void)state;
+    skip_without_gpu();
+    for (int i = 0; i < 8; i++) {
+        const int             length  = i % 2 == 0 ? 5000 : 3;
+        const hc_field        field   = field_of("fbm", length, 15000 / length, (hc_wrap)(i % 4));
+        const hc_cone_options options = { .cones  = (hc_cones)(i / 2 % 3),
+                                          .method = i < 6 ? HC_METHOD_EXACT : HC_METHOD_QUICK };
+        expect_ratios(&field, &options, hc_gpu_rounds(gpu));
+    }
+}
+
+#ifdef HC_HAVE_GL
+
+typedef struct waits {
+    int reports, most;
+} waits;
+
+static bool count_waits(void *user, double fraction)
+{
+    waits *w = user;
+    (void)fraction;
+    return ++w->reports < w->most;
+}
+
+#endif
+
+/* Where a dispatch allows few looks, searches wait for the next one, and find the same; they can be
+ * cancelled there. */
+static void searches_of_many_dispatches(void **state)
+{
+    (void)state;
+    skip_without_gpu();
+#ifdef HC_HAVE_GL
+    const int       before  = gpu->looks;
+    waits           seen    = { .most = 1 << 30 };
+    hc_field        field   = field_of("funnel", 64, 61, HC_WRAP_U);
+    hc_cone_options options = { .progress = { .report = count_waits, .user = &seen } };
+    assert_int_equal(hc_gpu_bake_cone_map(gpu, by_gpu, &field, &options, NULL), HC_OK);
+    const int usual = seen.reports;
+    gpu->looks      = 3;
+    assert_int_equal(hc_gpu_bake_cone_map(gpu, by_gpu, &field, &options, NULL), HC_OK);
+    assert_true(seen.reports > 20 * usual);
+    seen = (waits){ .most = 20 };
+    assert_int_equal(hc_gpu_bake_cone_map(gpu, by_gpu, &field, &options, NULL), HC_ERROR_CANCELLED);
+    options.progress = (hc_progress){ 0 };
+    expect_ratios(&field, &options, hc_gpu_rounds(gpu));
+    field   = field_of("fbm", 1500, 10, HC_WRAP_U);
+    options = (hc_cone_options){ .cones = HC_CONES_L1 };
+    expect_ratios(&field, &options, hc_gpu_rounds(gpu));
+    for (int i = 0; i < 6; i++) {
+        static const hc_method methods[] = { HC_METHOD_EXACT, HC_METHOD_GEMS,
+                                             HC_METHOD_FALLING_EDGE };
+        field                            = field_of("spikes", 33, 21, (hc_wrap)(i % 4));
+        options = (hc_cone_options){ .method = methods[i % 3], .gems_steps = 5 };
+        expect_ratios(&field, &options, hc_gpu_rounds(gpu));
+        options.cones = i % 3 == 0 ? HC_CONES_QUAD : HC_CONES_L2;
+        expect_ratios(&field, &options, hc_gpu_rounds(gpu));
+    }
+    gpu->looks = before;
 #endif
 }
 
@@ -332,6 +397,8 @@ int main(void)
         cmocka_unit_test(every_method),
         cmocka_unit_test(every_wrap),
         cmocka_unit_test(drivers_that_do_not_round),
+        cmocka_unit_test(long_fields),
+        cmocka_unit_test(searches_of_many_dispatches),
         cmocka_unit_test(timers),
         cmocka_unit_test(pyramids),
         cmocka_unit_test(bounds_and_slopes),

@@ -6,6 +6,10 @@
 #include "edits.h"
 #include "support.h"
 
+#ifdef HC_HAVE_GL
+#include "gpu/gpu.h"
+#endif
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -105,6 +109,23 @@ static void update_equals_a_full_bake(void **state)
         run((hc_cones)cones, &agree_small, 6, 83);
         run((hc_cones)cones, &agree_middle, 6, 301);
     }
+}
+
+/* Searches that wait for the next dispatch are counted once. */
+static void updates_of_many_dispatches(void **state)
+{
+    (void)state;
+    if (gpu == NULL) {
+        skip();
+    }
+#ifdef HC_HAVE_GL
+    const int before = gpu->looks;
+    gpu->looks       = 5;
+    for (int cones = 0; cones <= HC_CONES_ANISO; cones++) {
+        run((hc_cones)cones, &agree_small, 3, 701);
+    }
+    gpu->looks = before;
+#endif
 }
 
 static void other_methods_too(void **state)
@@ -364,6 +385,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(update_equals_a_full_bake),
+        cmocka_unit_test(updates_of_many_dispatches),
         cmocka_unit_test(other_methods_too),
         cmocka_unit_test(a_small_change_rebakes_little),
         cmocka_unit_test(refusals),

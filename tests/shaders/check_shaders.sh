@@ -77,23 +77,28 @@ for language in core es; do
     done
 done
 
-# search NAME L2 SIDED
+# search NAME L2 SIDED: behind bake.comp stands bake_$part.comp
 search() {
     {
         head_of core
         printf '#define HC_BAKE HC_%s\n#define HC_L2 %s\n#define HC_SIDED %s\n' "$@"
-        cat "$shaders/bake.comp"
+        cat "$shaders/bake.comp" "$shaders/bake_$part.comp"
     } >"$folder/$1-$2-$3.comp"
     check "$1-$2-$3.comp" comp
 }
 
-for name in BRUTE EXACT UPDATE QUICK; do
-    for sides in "0 0" "0 1" "1 0" "1 1"; do
+for sides in "0 0" "0 1" "1 0" "1 1"; do
+    part=search
+    for name in BRUTE EXACT UPDATE GEMS; do
         # shellcheck disable=SC2086 # two words
         search $name $sides
     done
+    part=quick
+    # shellcheck disable=SC2086
+    search QUICK $sides
 done
-for name in PYRAMID BOUNDS GRADIENT FALLING RATIOS CELLS ROUNDING GEMS; do
+part=samples
+for name in PYRAMID FAMILIES BOUNDS GRADIENT RATIOS CELLS ROUNDING; do
     search $name 1 0
 done
 
