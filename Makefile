@@ -4,7 +4,7 @@ FUZZ_SECONDS ?= 60
 SOAK_RAYS ?= 100000000
 export FUZZ_SECONDS SOAK_RAYS
 
-.PHONY: all demo test soak fuzz bench bench-peers gallery lint install clean
+.PHONY: all demo test soak fuzz bench bench-gpu bench-peers gallery lint install clean
 
 # build/heightcast and the libraries; the tests need more packages
 all:
@@ -37,6 +37,11 @@ fuzz:
 
 bench: all
 	build/heightcast bench bake
+
+# baking on this machine's GPU; the table stays in bench/results, under the GPU's name.
+# BENCH_SIZES=256,512 measures these only
+bench-gpu: all
+	@scripts/bench_gpu.sh $(BENCH_SIZES)
 
 # our caster of rays and those of others, on the same rays; installs them
 bench-peers:

@@ -2,7 +2,6 @@
 
 #include "measure.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,9 +35,14 @@ typedef struct bake_job {
     const float *exact; /* round exact ratios: input of the cells; NULL before they are known */
 } bake_job;
 
+typedef struct bake_stand {
+    const hc_bench_options *options;
+    hc_log                 *log;
+} bake_stand;
+
 static int threads_of(const hc_bench_options *options, const bench_case *c)
 {
-    return !c->threaded ? 1 : options->threads > 0 ? options->threads : DEFAULT_THREADS;
+    return !c->threaded ? 1 : options->plan.threads > 0 ? options->plan.threads : DEFAULT_THREADS;
 }
 
 static hc_result work_cones(void *context, void *output, hc_log *log)
@@ -47,7 +51,7 @@ static hc_result work_cones(void *context, void *output, hc_log *log)
     const hc_cone_options cone = { .cones    = job->c->cones,
                                    .method   = job->c->method,
                                    .threads  = threads_of(job->options, job->c),
-                                   .isa      = job->options->isa,
+                                   .isa      = job->options->plan.isa,
                                    .progress = job->options->progress };
     return hc_bake_cone_map(output, &job->field, &cone, log);
 }
@@ -123,14 +127,10 @@ const char *hc_bench_method(int index)
     return NULL;
 }
 
-bool hc_bench_wanted(const hc_bench_options *options, const char *name, int side, int side_max)
+static bool is_wanted(const hc_bench_options *options, const bench_case *c, int side)
 {
-    for (int i = 0; i < options->method_count; i++) {
-        if (strcmp(options->methods[i], name) == 0) {
-            return true;
-        }
-    }
-    return options->method_count == 0 && side <= side_max;
+    return hc_bench_chosen(&options->plan, c->name)
+           && (options->plan.method_count > 0 || side <= c->side_max);
 }
 
 static size_t output_floats(const bench_case *c, int side)
@@ -142,39 +142,21 @@ static size_t output_floats(const bench_case *c, int side)
     return (size_t)side * (size_t)side * (size_t)channels;
 }
 
-/* What of the exact ratios is kept: both cut off at 1, since where nothing is higher they are
- * infinite. */
-void hc_bench_compare(hc_bench_row *row, const float *ratios, const float *exact, size_t count)
-{
-    double kept  = 0.0;
-    size_t wider = 0;
-    for (size_t i = 0; i < count; i++) {
-        kept += (double)fminf(ratios[i], 1.0F) / (double)fminf(exact[i], 1.0F);
-        wider += ratios[i] > exact[i];
-    }
-    row->mean_kept = kept / (double)count;
-    row->wider     = (double)wider;
-}
-
 static hc_bench_row row_of(const bake_job *job, const char *field, const hc_bench_time *time,
                            const hc_bench_limits *limits)
 {
-    const double both = (double)(limits->input_bytes + limits->output_bytes);
-    return (hc_bench_row){ .field  = field,
-                           .side   = job->field.width,
-                           .method = job->c->name,
-                           .cones =
-                               job->c->work == work_cones ? hc_cones_name(job->c->cones) : NULL,
-                           .threads           = threads_of(job->options, job->c),
-                           .runs              = time->runs,
-                           .processor_seconds = time->processor,
-                           .seconds           = time->median,
-                           .fastest           = time->fastest,
-                           .slowest           = time->slowest,
-                           .peak_bytes        = time->peak_bytes,
-                           .memory_factor     = time->peak_bytes / both,
-                           .mean_kept         = NAN,
-                           .wider             = NAN };
+    const double both     = (double)(limits->input_bytes + limits->output_bytes);
+    const char  *cones    = job->c->work == work_cones ? hc_cones_name(job->c->cones) : NULL;
+    hc_bench_row row      = hc_bench_row_of(field, job->field.width, job->c->name, cones);
+    row.threads           = threads_of(job->options, job->c);
+    row.runs              = time->runs;
+    row.processor_seconds = time->processor;
+    row.seconds           = time->median;
+    row.fastest           = time->fastest;
+    row.slowest           = time->slowest;
+    row.peak_bytes        = time->peak_bytes;
+    row.memory_factor     = time->peak_bytes / both;
+    return row;
 }
 
 /* Measure one case. The first exact round ratios stay in job->exact. */
@@ -183,12 +165,12 @@ static hc_result run_case(bake_job *job, const char *field, float **exact, hc_lo
     const hc_bench_options *options = job->options;
     const size_t            floats  = output_floats(job->c, job->field.width);
     const size_t            texels  = (size_t)job->field.width * (size_t)job->field.height;
-    const hc_bench_limits   limits  = { .repeat =
-                                         options->repeat > 0 ? options->repeat : DEFAULT_REPEAT,
-                                        .seconds      = SECONDS_PER_ROW,
+    const hc_bench_limits   limits  = { .repeat  = options->plan.repeat > 0 ? options->plan.repeat
+                                                                            : DEFAULT_REPEAT,
+                                        .seconds = SECONDS_PER_ROW,
                                         .input_bytes  = texels * sizeof(float),
                                         .output_bytes = floats * sizeof(float),
-                                        .stop         = options->stop };
+                                        .stop         = options->plan.stop };
     hc_bench_time           time;
     float                  *output = malloc(limits.output_bytes);
     if (output == NULL) {
@@ -202,10 +184,7 @@ static hc_result run_case(bake_job *job, const char *field, float **exact, hc_lo
         if (round && *exact == NULL && job->c->method == HC_METHOD_EXACT) {
             *exact = output;
         }
-        if (round && *exact != NULL) {
-            hc_bench_compare(&row, output, *exact, floats);
-        }
-        options->row_done(options->user, &row);
+        hc_bench_row_done(options, &row, round ? output : NULL, *exact, floats);
     }
     if (output != *exact) {
         free(output);
@@ -213,52 +192,32 @@ static hc_result run_case(bake_job *job, const char *field, float **exact, hc_lo
     return result;
 }
 
-static hc_result run_cases(bake_job *job, const char *field, hc_log *log)
+static hc_result run_field(void *user, const char *name, const hc_field *field)
 {
-    const hc_bench_options *options = job->options;
+    const bake_stand       *stand   = user;
+    const hc_bench_options *options = stand->options;
+    bake_job                job     = { .options = options, .field = *field };
     float                  *exact   = NULL;
     hc_result               result  = HC_OK;
     for (int i = 0; i < CASES && result == HC_OK; i++) {
-        job->c = &cases[i];
-        if (!hc_bench_wanted(options, job->c->name, job->field.width, job->c->side_max)
-            || (job->c->threaded && threads_of(options, job->c) == 1)
-            || (job->c->work == work_cells && exact == NULL)) {
+        job.c = &cases[i];
+        if (!is_wanted(options, job.c, field->width)
+            || (job.c->work == work_cells && exact == NULL)) {
             continue;
         }
-        result = run_case(job, field, &exact, log);
+        result = run_case(&job, name, &exact, stand->log);
     }
     free(exact);
     return result;
 }
 
-static hc_result run_field(const hc_bench_options *options, const char *name, int side, hc_log *log)
-{
-    bake_job job     = { .options = options, .field = { .width = side, .height = side } };
-    float   *heights = malloc((size_t)side * (size_t)side * sizeof *heights);
-    if (heights == NULL) {
-        return HC_ERROR_MEMORY;
-    }
-    job.field.heights = heights;
-    hc_result result  = hc_synth(heights, side, side, name, options->seed, log);
-    if (result == HC_OK) {
-        result = run_cases(&job, name, log);
-    }
-    free(heights);
-    return result;
-}
-
 hc_result hc_bench_bake(const hc_bench_options *options, hc_log *log)
 {
-    hc_result result = HC_OK;
+    bake_stand stand = { options, log };
 #if defined(__GLIBC__)
     /* Large blocks go back to the system when they are freed, as in a process that has freed none:
      * else a child could work in memory that was resident before it was measured. */
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 17);
 #endif
-    for (int i = 0; i < options->field_count; i++) {
-        for (int j = 0; j < options->side_count && result == HC_OK; j++) {
-            result = run_field(options, options->fields[i], options->sides[j], log);
-        }
-    }
-    return result;
+    return hc_bench_each_field(&options->plan, run_field, &stand, log);
 }

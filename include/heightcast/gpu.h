@@ -29,8 +29,11 @@ typedef struct hc_gpu hc_gpu;
 HC_API hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log);
 HC_API void      hc_gpu_destroy(hc_gpu *gpu);
 
-HC_API const char *hc_gpu_name(const hc_gpu *gpu); /* as the driver says; lives as long as `gpu` */
-HC_API bool        hc_gpu_rounds(const hc_gpu *gpu); /* as IEEE 754 does */
+/* As the driver says; they live as long as `gpu`. */
+HC_API const char *hc_gpu_name(const hc_gpu *gpu);
+HC_API const char *hc_gpu_driver(
+    const hc_gpu *gpu);                       /* who made it; versions of OpenGL and itself */
+HC_API bool hc_gpu_rounds(const hc_gpu *gpu); /* as IEEE 754 does */
 
 /* Seconds of the last bake that the shaders ran, less compiling, loading and reading back: by the
  * GPU's time stamps, with Mesa's software renderers by the wall clock, everything finished. Which

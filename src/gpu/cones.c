@@ -47,7 +47,7 @@ static int least(int a, int b)
 }
 
 /* Searches that took more looks than one dispatch allows. */
-static hc_result go_on(const hc_gpu_baking *b, unsigned program, double share)
+static hc_result go_on(const hc_gpu_baking *b, unsigned program, int row, int end_row)
 {
     const int waiting  = (int)hc_gpu_count(b, HC_GPU_UNFINISHED);
     const int first[2] = { 0, 0 };
@@ -56,11 +56,14 @@ static hc_result go_on(const hc_gpu_baking *b, unsigned program, double share)
     glUniform1i(glGetUniformLocation(program, "u_resume"), 1);
     glUniform1i(glGetUniformLocation(program, "u_waiting"), waiting);
     for (int left = waiting; left > 0 && result == HC_OK;) {
+        const double rows = end_row - row - (double)left / b->job->width;
+        result            = report(b, (row + rows) / b->job->height);
         hc_gpu_set_count(b, HC_GPU_UNFINISHED, 0);
-        (void)hc_gpu_run(b->gpu, program, first, end);
-        left   = (int)hc_gpu_count(b, HC_GPU_UNFINISHED);
-        result = hc_gl_check("baking", b->job->log);
-        result = result == HC_OK ? report(b, share) : result;
+        if (result == HC_OK) {
+            (void)hc_gpu_run(b->gpu, program, first, end);
+            left   = (int)hc_gpu_count(b, HC_GPU_UNFINISHED);
+            result = hc_gl_check("baking", b->job->log);
+        }
     }
     glUniform1i(glGetUniformLocation(program, "u_resume"), 0);
     return result;
@@ -78,7 +81,7 @@ static hc_result run_rows(const hc_gpu_baking *b, unsigned program, bool pruned)
         rows               = paced(rows, hc_gpu_run(b->gpu, program, first, end));
         result             = hc_gl_check("baking", b->job->log);
         if (result == HC_OK && pruned) {
-            result = go_on(b, program, (double)y / b->job->height);
+            result = go_on(b, program, y, end[1]);
         }
         y      = end[1];
         result = result == HC_OK ? report(b, (double)y / b->job->height) : result;
@@ -86,11 +89,12 @@ static hc_result run_rows(const hc_gpu_baking *b, unsigned program, bool pruned)
     return result;
 }
 
-/* Some texels against all samples, some rows of them at a time. */
+/* Some texels against all samples, some rows of them at a time. before: texels that are done. */
 static hc_result run_against_all(const hc_gpu_baking *b, unsigned program, const int first[2],
-                                 const int end[2], int *rows)
+                                 const int end[2], double before, int *rows)
 {
-    hc_result result = HC_OK;
+    const double texels = (end[0] - first[0]) * (double)(end[1] - first[1]);
+    hc_result    result = HC_OK;
     for (int y = 0; y < b->job->height && result == HC_OK;) {
         const int next = least(y + *rows, b->job->height);
         hc_gpu_set_pair(program, "u_rows", y, next);
@@ -98,6 +102,10 @@ static hc_result run_against_all(const hc_gpu_baking *b, unsigned program, const
         *rows  = paced(*rows, hc_gpu_run(b->gpu, program, first, end));
         y      = next;
         result = hc_gl_check("baking", b->job->log);
+        if (result == HC_OK) {
+            const double done = before + texels * ((double)y / b->job->height);
+            result            = report(b, done / (double)samples(b));
+        }
     }
     return result;
 }
@@ -111,11 +119,11 @@ static hc_result run_brute(const hc_gpu_baking *b, unsigned program)
     int       rows   = 1;
     for (int y = 0; y < height && result == HC_OK; y += deep) {
         for (int x = 0; x < width && result == HC_OK; x += BRUTE_TEXELS) {
-            const int first[2] = { x, y };
-            const int end[2]   = { least(x + BRUTE_TEXELS, width), least(y + deep, height) };
-            result             = run_against_all(b, program, first, end, &rows);
+            const int    first[2] = { x, y };
+            const int    end[2]   = { least(x + BRUTE_TEXELS, width), least(y + deep, height) };
+            const double before   = (double)y * width + (double)x * (end[1] - y);
+            result                = run_against_all(b, program, first, end, before, &rows);
         }
-        result = result == HC_OK ? report(b, least(y + deep, height) / (double)height) : result;
     }
     return result;
 }

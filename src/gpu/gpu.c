@@ -223,6 +223,8 @@ hc_result hc_gpu_create(hc_gpu **gpu, hc_log *log)
     hc_result result = hc_gl_open(&made->context, log);
     if (result == HC_OK) {
         (void)snprintf(made->name, sizeof made->name, "%s", (const char *)glGetString(GL_RENDERER));
+        (void)snprintf(made->driver, sizeof made->driver, "%s, OpenGL %s",
+                       (const char *)glGetString(GL_VENDOR), (const char *)glGetString(GL_VERSION));
         made->timer = !is_software(made->name);
         result      = try_weights(made, false, log);
         result      = result == HC_OK ? try_weights(made, true, log) : result;
@@ -252,6 +254,11 @@ void hc_gpu_destroy(hc_gpu *gpu)
 const char *hc_gpu_name(const hc_gpu *gpu)
 {
     return gpu->name;
+}
+
+const char *hc_gpu_driver(const hc_gpu *gpu)
+{
+    return gpu->driver;
 }
 
 bool hc_gpu_rounds(const hc_gpu *gpu)

@@ -27,7 +27,7 @@ enum { HC_GPU_NAME_MAX = 128 };
 struct hc_gpu {
     hc_gl_context context; /* first: gl/map.h */
     hc_map_baker  baker;
-    char          name[HC_GPU_NAME_MAX];
+    char          name[HC_GPU_NAME_MAX], driver[HC_GPU_NAME_MAX];
     bool          rounds; /* tests may say that it does not */
     bool          timer;  /* the GPU's own times seconds; tests may choose */
     int           looks;  /* at families in one dispatch for one texel; tests may choose */

@@ -28,6 +28,12 @@ const char *hc_gpu_name(const hc_gpu *gpu)
     return "none";
 }
 
+const char *hc_gpu_driver(const hc_gpu *gpu)
+{
+    (void)gpu;
+    return "none";
+}
+
 bool hc_gpu_rounds(const hc_gpu *gpu)
 {
     (void)gpu;

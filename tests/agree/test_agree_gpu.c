@@ -36,7 +36,8 @@ static int open_gpu(void **state)
         return 0;
     }
     if (result == HC_OK) {
-        print_message("%s, rounds: %d\n", hc_gpu_name(gpu), hc_gpu_rounds(gpu));
+        print_message("%s, %s, rounds: %d\n", hc_gpu_name(gpu), hc_gpu_driver(gpu),
+                      hc_gpu_rounds(gpu));
     }
     return result == HC_OK ? 0 : -1;
 }

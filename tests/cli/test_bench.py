@@ -46,13 +46,35 @@ class Bench(Case):
             self.assertGreater(rows[method, "l2", 32]["seconds"], 0)
         for cones in ["l1", "quad", "aniso"]:
             self.assertIn(("exact", cones, 16), rows)
-        self.assertEqual(rows["brute", "l2", 32]["wider"], 0)
+        for row in report["rows"]:
+            if row["method"] in ["exact", "brute"]:
+                self.assertEqual((row["wider"], row["wider_share"]), (0, 0))
+        self.assertIn("OpenGL 4.", report["driver"])
+        self.assertLess(rows["quick", "l2", 32]["mean_ratio"],
+                        rows["exact", "l2", 32]["mean_ratio"])
+        self.assertAlmostEqual(rows["falling-edge", "l2", 32]["wider_share"],
+                               rows["falling-edge", "l2", 32]["wider"] / 32 ** 2)
         self.assertLess(rows["quick", "l2", 32]["mean_kept"], 1)
         self.assertAlmostEqual(report["figures"][1]["quick_improved_over_exact"],
                                rows["quick-improved", "l2", 32]["seconds"]
                                / rows["exact", "l2", 32]["seconds"])
         self.refused("bench", "bake", "--backend", "gl", "--methods", "ring", code=USAGE,
                      says=["ring", "quick-improved"])
+
+    def test_opengl_stops_what_takes_too_long(self):
+        if not self.has_opengl():
+            self.skipTest("no OpenGL here")
+        done = self.run_program("bench", "bake", "--sizes", "64", "--repeat", "1", "--backend", "gl",
+                                "--methods", "brute,pyramid", "--limit", "0.000001", "--json",
+                                "gl.json", "--csv", "gl.csv")
+        self.assertEqual(done.returncode, 0)
+        brute, pyramid = json.loads(self.path("gl.json").read_text())["rows"]
+        self.assertEqual((brute["runs"], brute["seconds"], pyramid["runs"]), (0, None, 1))
+        self.assertGreater(brute["expected_seconds"], 0)
+        self.assertIn(b"stopped: would take about", done.stdout)
+        with open(self.path("gl.csv"), newline="") as file:
+            self.assertEqual(next(csv.DictReader(file))["seconds"], "")
+        self.refused("bench", "bake", "--limit", "3", code=USAGE, says="--backend gl")
 
     def has_opengl(self):
         return self.json("bake", self.hills(), "a.exr", "--backend", "gl")["backend"] == "gl"

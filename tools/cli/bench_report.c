@@ -50,21 +50,31 @@ static const char *number_or_nothing(char *text, size_t size, int digits, double
     return text;
 }
 
+static void add_csv_number(hc_cli_bench *bench, double value)
+{
+    char text[32], cell[40];
+    (void)snprintf(cell, sizeof cell, ",%s", number_or_nothing(text, sizeof text, 9, value));
+    hc_cli_csv_add(&bench->csv, cell);
+}
+
 static void add_csv_row(hc_cli_bench *bench, const hc_bench_row *row)
 {
-    const hc_bench_machine *machine = &bench->machine;
-    char                    line[CSV_LINE_MAX];
-    char                    kept[32];
-    char                    wider[32];
-    (void)snprintf(
-        line, sizeof line,
-        "%s,%d,%s,%s,%d,%d,%.9g,%.9g,%.9g,%.9g,%.6g,%.0f,%.4g,%s,%s,\"%s\",\"%s\",\"%s\",%s,%s\n",
-        row->field, row->side, row->method, row->cones == NULL ? "" : row->cones, row->threads,
-        row->runs, row->seconds, row->fastest, row->slowest, row->processor_seconds,
-        ns_per_texel(row), row->peak_bytes, row->memory_factor,
-        number_or_nothing(kept, sizeof kept, 9, row->mean_kept),
-        number_or_nothing(wider, sizeof wider, 9, row->wider), machine->cpu, machine->system,
-        machine->compiler, machine->commit, hc_version());
+    const hc_bench_machine *machine   = &bench->machine;
+    const double            numbers[] = {
+                   row->threads,    row->runs,          row->seconds,           row->fastest,
+                   row->slowest,    row->expected,      row->processor_seconds, ns_per_texel(row),
+                   row->peak_bytes, row->memory_factor, row->mean_kept,         row->mean_ratio,
+                   row->wider,      row->wider_share
+    };
+    char line[CSV_LINE_MAX];
+    (void)snprintf(line, sizeof line, "%s,%d,%s,%s", row->field, row->side, row->method,
+                   row->cones == NULL ? "" : row->cones);
+    hc_cli_csv_add(&bench->csv, line);
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
+        add_csv_number(bench, numbers[i]);
+    }
+    (void)snprintf(line, sizeof line, ",\"%s\",\"%s\",\"%s\",%s,%s\n", machine->cpu,
+                   machine->system, machine->compiler, machine->commit, hc_version());
     hc_cli_csv_add(&bench->csv, line);
 }
 
@@ -91,18 +101,20 @@ int hc_cli_bench_begin(hc_cli_bench *bench)
     hc_cli_text(cli, "bench", "bake");
     if (bench->gpu != NULL) {
         hc_cli_text(cli, "gpu", hc_gpu_name(bench->gpu));
+        hc_cli_text(cli, "driver", hc_gpu_driver(bench->gpu));
         hc_cli_text(cli, "gpu_rounds", hc_gpu_rounds(bench->gpu) ? "yes" : "no");
         hc_cli_text(cli, "timer", hc_gpu_timer(bench->gpu));
     }
     hc_cli_show_machine(cli, &bench->machine);
     bench->list = cJSON_AddArrayToObject(cli->json, "rows");
-    hc_cli_csv_add(&bench->csv,
-                   "field,side,method,cones,threads,runs,seconds,fastest,slowest,processor_seconds,"
-                   "ns_per_texel,"
-                   "peak_bytes,memory_factor,mean_kept,wider,cpu,system,compiler,commit,version\n");
-    hc_cli_say(cli, "\n%-10s %5s %-18s %-5s %7s %4s %10s %9s %6s %7s %8s\n", "field", "side",
-               "method", "cones", "threads", "runs", "seconds", "ns/texel", "memory", "kept",
-               "wider");
+    hc_cli_csv_add(
+        &bench->csv,
+        "field,side,method,cones,threads,runs,seconds,fastest,slowest,"
+        "expected_seconds,processor_seconds,ns_per_texel,peak_bytes,memory_factor,mean_kept,"
+        "mean_ratio,wider,wider_share,cpu,system,compiler,commit,version\n");
+    hc_cli_say(cli, "\n%-10s %5s %-18s %-5s %7s %4s %10s %9s %6s %7s %7s %8s %6s\n", "field",
+               "side", "method", "cones", "threads", "runs", "seconds", "ns/texel", "memory",
+               "kept", "ratio", "wider", "%");
     return bench->failed || bench->csv.failed ? hc_cli_fail_memory(cli) : HC_CLI_DONE;
 }
 
@@ -122,24 +134,33 @@ static void add_json_row(hc_cli_bench *bench, const hc_bench_row *row)
     (void)cJSON_AddNumberToObject(object, "seconds", row->seconds);
     (void)cJSON_AddNumberToObject(object, "fastest", row->fastest);
     (void)cJSON_AddNumberToObject(object, "slowest", row->slowest);
+    (void)cJSON_AddNumberToObject(object, "expected_seconds", row->expected);
     (void)cJSON_AddNumberToObject(object, "processor_seconds", row->processor_seconds);
     (void)cJSON_AddNumberToObject(object, "ns_per_texel", ns_per_texel(row));
     (void)cJSON_AddNumberToObject(object, "peak_bytes", row->peak_bytes);
     (void)cJSON_AddNumberToObject(object, "memory_factor", row->memory_factor);
     (void)cJSON_AddNumberToObject(object, "mean_kept", row->mean_kept);
+    (void)cJSON_AddNumberToObject(object, "mean_ratio", row->mean_ratio);
     (void)cJSON_AddNumberToObject(object, "wider", row->wider);
+    (void)cJSON_AddNumberToObject(object, "wider_share", row->wider_share);
     (void)cJSON_AddItemToArray(bench->list, object);
 }
 
 static void say_row(hc_cli_bench *bench, const hc_bench_row *row)
 {
-    char kept[32];
-    char wider[32];
+    char kept[32], ratio[32], wider[32], share[32];
     (void)number_or_nothing(kept, sizeof kept, 4, row->mean_kept);
+    (void)number_or_nothing(ratio, sizeof ratio, 4, row->mean_ratio);
     (void)number_or_nothing(wider, sizeof wider, 9, row->wider);
-    hc_cli_say(bench->cli, "%-10s %5d %-18s %-5s %7d %4d %10.4g %9.2f %6.2f %7s %8s\n", row->field,
-               row->side, row->method, row->cones == NULL ? "" : row->cones, row->threads,
-               row->runs, row->seconds, ns_per_texel(row), row->memory_factor, kept, wider);
+    (void)number_or_nothing(share, sizeof share, 3, 100.0 * row->wider_share);
+    hc_cli_say(bench->cli, "%-10s %5d %-18s %-5s %7d %4d ", row->field, row->side, row->method,
+               row->cones == NULL ? "" : row->cones, row->threads, row->runs);
+    if (row->runs == 0) {
+        hc_cli_say(bench->cli, "stopped: would take about %.0f s\n", row->expected);
+    } else {
+        hc_cli_say(bench->cli, "%10.4g %9.2f %6.2f %7s %7s %8s %6s\n", row->seconds,
+                   ns_per_texel(row), row->memory_factor, kept, ratio, wider, share);
+    }
     if (bench->cli->on_stdout) {
         (void)fflush(stdout); /* a long run shows what it has */
     }
@@ -173,7 +194,7 @@ static const hc_bench_row *find(const hc_cli_bench *bench, const hc_bench_row *l
     for (int i = 0; i < bench->count; i++) {
         const hc_bench_row *row  = &bench->rows[i];
         const bool          here = row->side == like->side && row->field == like->field;
-        if (here && strcmp(row->method, method) == 0 && row->cones != NULL
+        if (here && row->runs > 0 && strcmp(row->method, method) == 0 && row->cones != NULL
             && strcmp(row->cones, hc_cones_name(HC_CONES_L2)) == 0
             && (threads == SEVERAL ? row->threads > 1 : row->threads == threads)) {
             return row;
@@ -184,7 +205,7 @@ static const hc_bench_row *find(const hc_cli_bench *bench, const hc_bench_row *l
 
 static bool is_exact_l2(const hc_bench_row *row)
 {
-    return strcmp(row->method, "exact") == 0 && row->threads <= 1
+    return row->runs > 0 && strcmp(row->method, "exact") == 0 && row->threads <= 1
            && strcmp(row->cones, hc_cones_name(HC_CONES_L2)) == 0;
 }
 

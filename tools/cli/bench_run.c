@@ -10,10 +10,9 @@ static bool stopped(void)
     return hc_cli_caught_signal() != 0;
 }
 
-hc_bench_plan hc_cli_run_plan(const hc_cli_run *run)
+hc_bench_plan hc_cli_plan(const hc_cli *cli, const hc_cli_grounds *in)
 {
-    const hc_cli_settings *settings = &run->cli->settings;
-    const hc_cli_grounds  *in       = &run->in;
+    const hc_cli_settings *settings = &cli->settings;
     return (hc_bench_plan){ .fields       = in->grounds,
                             .field_count  = in->fields.count,
                             .sides        = in->numbers,
@@ -25,6 +24,11 @@ hc_bench_plan hc_cli_run_plan(const hc_cli_run *run)
                             .threads      = settings->threads,
                             .isa          = settings->map.cone.isa,
                             .stop         = stopped };
+}
+
+hc_bench_plan hc_cli_run_plan(const hc_cli_run *run)
+{
+    return hc_cli_plan(run->cli, &run->in);
 }
 
 bool hc_cli_run_add(hc_cli_run *run, const void *row, size_t size, cJSON *object, const char *csv)

@@ -31,6 +31,7 @@ typedef struct hc_cli_run_kind {
 int hc_cli_bench_run(hc_cli *cli, const hc_cli_run_kind *kind);
 
 /* What the command line says of the fields, the methods and the runs. */
+hc_bench_plan hc_cli_plan(const hc_cli *cli, const hc_cli_grounds *in);
 hc_bench_plan hc_cli_run_plan(const hc_cli_run *run);
 
 /* Keep a row; its object and its line of CSV are added to the reports. False: memory ran out. */

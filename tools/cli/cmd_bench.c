@@ -2,7 +2,6 @@
 #include "bench_report.h"
 #include "bench_run.h"
 #include "commands.h"
-#include "interrupt.h"
 #include "lists.h"
 #include "options.h"
 #include "output.h"
@@ -11,39 +10,35 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The command line's lists, taken apart. */
-typedef struct bench_lists {
-    hc_cli_list sides, fields, methods;
-    int         numbers[HC_CLI_LIST_MAX];
-} bench_lists;
-
-static const char *field_word(int index)
+int hc_cli_check_item(hc_cli *cli, const char *name, const char *item, hc_cli_words *words)
 {
-    return hc_synth_name(index);
+    char known[512];
+    int  found = 0;
+    while (words(found) != NULL && strcmp(words(found), item) != 0) {
+        found++;
+    }
+    if (words(found) != NULL) {
+        return HC_CLI_DONE;
+    }
+    const char *near = hc_cli_nearest(item, words);
+    hc_cli_join_words(known, sizeof known, words, ", ");
+    return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: allowed are %s%s%s%s", name, item, known,
+                       near == NULL ? "" : "; did you mean '", near == NULL ? "" : near,
+                       near == NULL ? "" : "'?");
 }
 
 int hc_cli_read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
                      hc_cli_words *words)
 {
-    char known[512];
+    int code = HC_CLI_DONE;
     if (!hc_cli_split(list, text)) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: allowed are %s", name, text,
                            hc_cli_option_named(name)->allowed);
     }
-    for (int i = 0; words != NULL && i < list->count; i++) {
-        int found = 0;
-        while (words(found) != NULL && strcmp(words(found), list->items[i]) != 0) {
-            found++;
-        }
-        if (words(found) == NULL) {
-            const char *near = hc_cli_nearest(list->items[i], words);
-            hc_cli_join_words(known, sizeof known, words, ", ");
-            return hc_cli_fail(cli, HC_CLI_USAGE, "--%s %s: allowed are %s%s%s%s", name,
-                               list->items[i], known, near == NULL ? "" : "; did you mean '",
-                               near == NULL ? "" : near, near == NULL ? "" : "'?");
-        }
+    for (int i = 0; words != NULL && i < list->count && code == HC_CLI_DONE; i++) {
+        code = hc_cli_check_item(cli, name, list->items[i], words);
     }
-    return HC_CLI_DONE;
+    return code;
 }
 
 int hc_cli_read_sides(hc_cli *cli, hc_cli_list *sides, int numbers[HC_CLI_LIST_MAX],
@@ -59,22 +54,6 @@ int hc_cli_read_sides(hc_cli *cli, hc_cli_list *sides, int numbers[HC_CLI_LIST_M
             return hc_cli_fail(cli, HC_CLI_USAGE, "--sizes %s: allowed are %s", item,
                                hc_cli_option_named("sizes")->allowed);
         }
-    }
-    return code;
-}
-
-static int read_lists(hc_cli *cli, bench_lists *lists)
-{
-    const hc_cli_settings *settings = &cli->settings;
-    int                    code = hc_cli_read_sides(cli, &lists->sides, lists->numbers, "512,4096");
-    if (code == HC_CLI_DONE) {
-        code = hc_cli_read_list(cli, &lists->fields, "field",
-                                settings->fields == NULL ? "fbm" : settings->fields, field_word);
-    }
-    if (code == HC_CLI_DONE && settings->methods != NULL) {
-        code = hc_cli_read_list(cli, &lists->methods, "methods", settings->methods,
-                                settings->backend == HC_CLI_GL ? hc_bench_gpu_method
-                                                               : hc_bench_method);
     }
     return code;
 }
@@ -108,6 +87,11 @@ static int check_arguments(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--backend is for bench bake, render and terrain; leave it out");
     }
+    if (hc_cli_given(settings, "limit")
+        && !(asks_for(cli, "bake") && settings->backend == HC_CLI_GL)) {
+        return hc_cli_fail(cli, HC_CLI_USAGE,
+                           "--limit is for bench bake --backend gl; leave it out");
+    }
     if (settings->either) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--backend auto could be either; bench measures cpu or gl");
@@ -120,29 +104,14 @@ static int check_arguments(hc_cli *cli)
     return code;
 }
 
-static bool stop_asked(void)
+static int measure(hc_cli *cli, const hc_cli_grounds *in, hc_cli_bench *bench, hc_gpu *gpu)
 {
-    return hc_cli_caught_signal() != 0;
-}
-
-static int measure(hc_cli *cli, const bench_lists *lists, hc_cli_bench *bench, hc_gpu *gpu)
-{
-    const hc_cli_settings *settings = &cli->settings;
-    const hc_bench_options options  = { .fields       = lists->fields.items,
-                                        .field_count  = lists->fields.count,
-                                        .sides        = lists->numbers,
-                                        .side_count   = lists->sides.count,
-                                        .methods      = lists->methods.items,
-                                        .method_count = lists->methods.count,
-                                        .seed         = settings->seed,
-                                        .repeat       = settings->repeat,
-                                        .threads      = settings->threads,
-                                        .isa          = settings->map.cone.isa,
-                                        .gpu          = gpu,
-                                        .progress     = hc_cli_progress(cli),
-                                        .stop         = stop_asked,
-                                        .row_done     = hc_cli_bench_row,
-                                        .user         = bench };
+    const hc_bench_options options = { .plan     = hc_cli_plan(cli, in),
+                                       .gpu      = gpu,
+                                       .limit    = (double)cli->settings.limit,
+                                       .progress = hc_cli_progress(cli),
+                                       .row_done = hc_cli_bench_row,
+                                       .user     = bench };
     hc_cli_phase(cli, "bake");
     const hc_result result =
         gpu != NULL ? hc_bench_gpu(&options, &cli->log) : hc_bench_bake(&options, &cli->log);
@@ -166,7 +135,7 @@ int hc_cli_write_reports(hc_cli *cli, const char *csv)
     return code;
 }
 
-static int bench_bake(hc_cli *cli, const bench_lists *lists)
+static int bench_bake(hc_cli *cli, const hc_cli_grounds *in)
 {
     hc_gpu   *gpu    = NULL;
     hc_result result = HC_OK;
@@ -178,7 +147,7 @@ static int bench_bake(hc_cli *cli, const bench_lists *lists)
     }
     hc_cli_bench bench = { .cli = cli, .gpu = gpu };
     int          code  = hc_cli_bench_begin(&bench);
-    code               = code == HC_CLI_DONE ? measure(cli, lists, &bench, gpu) : code;
+    code               = code == HC_CLI_DONE ? measure(cli, in, &bench, gpu) : code;
     if (code == HC_CLI_DONE) {
         hc_cli_bench_figures(&bench);
         code = hc_cli_write_reports(cli, bench.csv.text);
@@ -188,17 +157,27 @@ static int bench_bake(hc_cli *cli, const bench_lists *lists)
     return code;
 }
 
+static int run_bench_bake(hc_cli *cli)
+{
+    const bool     gl   = cli->settings.backend == HC_CLI_GL;
+    hc_cli_grounds in   = { .sides = { .count = 0 } };
+    int            code = hc_cli_read_grounds(cli, &in, "fbm", "512,4096",
+                                   gl ? hc_bench_gpu_method : hc_bench_method);
+    code                = code == HC_CLI_DONE ? bench_bake(cli, &in) : code;
+    hc_cli_free_grounds(&in);
+    return code;
+}
+
 int hc_cli_run_bench(hc_cli *cli)
 {
-    bench_lists lists  = { 0 };
     cli->settings.json = cli->settings.report != NULL && strcmp(cli->settings.report, "-") == 0;
-    int code           = check_arguments(cli);
-    if (code == HC_CLI_DONE && !asks_for(cli, "bake")) {
-        return asks_for(cli, "trace")    ? hc_cli_run_bench_trace(cli)
-               : asks_for(cli, "steps")  ? hc_cli_run_bench_steps(cli)
-               : asks_for(cli, "render") ? hc_cli_run_bench_render(cli)
-                                         : hc_cli_run_bench_terrain(cli);
+    const int code     = check_arguments(cli);
+    if (code != HC_CLI_DONE) {
+        return code;
     }
-    code = code == HC_CLI_DONE ? read_lists(cli, &lists) : code;
-    return code == HC_CLI_DONE ? bench_bake(cli, &lists) : code;
+    return asks_for(cli, "bake")     ? run_bench_bake(cli)
+           : asks_for(cli, "trace")  ? hc_cli_run_bench_trace(cli)
+           : asks_for(cli, "steps")  ? hc_cli_run_bench_steps(cli)
+           : asks_for(cli, "render") ? hc_cli_run_bench_render(cli)
+                                     : hc_cli_run_bench_terrain(cli);
 }

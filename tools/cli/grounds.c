@@ -19,6 +19,8 @@ static int read_fields(hc_cli *cli, hc_cli_grounds *in, const char *otherwise)
             const hc_result result = hc_load_field(&in->tiles[i], item, &load, &cli->log);
             in->grounds[i].tile    = &in->tiles[i];
             code                   = result == HC_OK ? code : hc_cli_fail_result(cli, result);
+        } else {
+            code = hc_cli_check_item(cli, "field", item, hc_synth_name);
         }
     }
     return code;

@@ -8,6 +8,8 @@
 
 #include "bench/plan.h"
 
+/* An item of the value of --NAME. */
+int hc_cli_check_item(hc_cli *cli, const char *name, const char *item, hc_cli_words *words);
 /* Split the value of --NAME and check each item against `words` (NULL: none). */
 int hc_cli_read_list(hc_cli *cli, hc_cli_list *list, const char *name, const char *text,
                      hc_cli_words *words);

@@ -418,8 +418,7 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(fields),
       .metavar  = "NAME,...",
       .allowed  = "names that 'heightcast gen --list' shows, separated by commas",
-      .help = "Generated fields (default fbm; render: cobbles). trace, steps, render and terrain "
-              "also take files, repeated as tiles." },
+      .help     = "Generated fields (default fbm; render: cobbles), or files, repeated as tiles." },
     { .name     = "methods",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -443,6 +442,16 @@ const hc_cli_option hc_cli_options[] = {
       .allowed  = "1 to 1000",
       .help     = "Runs of each, of which the median counts (default 5; slow ones are run less "
                   "often)." },
+    { .name     = "limit",
+      .commands = HC_CLI_BENCH,
+      .section  = HC_CLI_SECTION_WORK,
+      .read     = hc_cli_read_float,
+      .target   = TARGET(limit),
+      .high     = 86400,
+      .metavar  = "SECONDS",
+      .allowed  = "numbers above 0, up to 86400",
+      .help = "bake, --backend gl: stop a run that would take longer, and say how long it would "
+              "(default 15)." },
     { .name     = "json",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,

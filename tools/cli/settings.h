@@ -93,6 +93,7 @@ typedef struct hc_cli_settings {
     const char     *diff, *heights, *out;
     const char     *sizes, *fields, *methods; /* bench: comma-separated */
     int             repeat;
+    float           limit;
     const char     *report; /* bench: file for --json, "-" is standard output */
     const char     *csv;
     hc_cli_rays     rays;
