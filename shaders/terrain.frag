@@ -1,12 +1,14 @@
 /* terrain.frag: a landscape, a ray for each pixel and one from there to the sun. Stands behind
- * heightcast.glsl, whose marchers it uses, and draws what heightcast/terrain.h describes; functions
- * are named as in src/render/terrain and stand in its files' order: air, ground, see.
+ * heightcast.glsl, whose marchers it uses, and behind #define DETAILS detail.glsl, and draws what
+ * heightcast/terrain.h describes; functions are named as in src/render/terrain and stand in its
+ * files' order: air, ground, see.
  *
  * It shows how to use those marchers for terrain: any eye (main), the sun's shadow (in_shadow), and
  * triangles in the same depth buffer, lit by the same sun: bodies.vert puts them there, with this
- * file behind #define BODIES. ground.vert draws the ground itself as triangles, with this file behind
- * #define POLYGONS, and the sky around them is its own behind #define SKY. All is in texture space, where the CPU has put the eye; t of a
- * ray is the distance in the world, since the field's place is affine. */
+ * file behind #define BODIES. ground.vert draws the ground itself as triangles, with this file
+ * behind #define POLYGONS, and the sky around them is its own behind #define SKY. All is in texture
+ * space, where the CPU has put the eye; t of a ray is the distance in the world, since the field's
+ * place is affine. */
 
 /* forward: unit; right, down: to the picture's edges, at distance 1; orthographic: in the world */
 uniform vec3  u_forward, u_right, u_down;
@@ -56,6 +58,9 @@ layout(location = 2) out vec4 o_counts; /* steps, texels read, came to the box: 
 #define ELEVATION 1
 #define SLOPE 2
 #define IMAGE 3
+
+/* How much of details there is where this pixel's ray came to; below 0: it will tell. */
+float detail_left = 0.0;
 
 /* Walls end so far below height 0. */
 #define BASE 0.25
@@ -269,6 +274,9 @@ vec3 normal_at(hc_hit hit, vec3 along)
     }
     bool flat_  = u_blocky || is_cut(hit) || HC_METHOD == HC_QDM;
     vec2 slopes = flat_ ? hc_patch_slopes(hit.place.xy) : hc_smooth_slopes(hit.place.xy);
+#ifdef DETAILS
+    slopes += is_cut(hit) ? vec2(0.0) : hc_details_slopes(hit.place.xy, detail_left);
+#endif
     return across(vec3(-slopes, 1.0));
 }
 
@@ -281,12 +289,28 @@ float way_out(vec3 place, vec3 along)
     return max(min(up, min(left, ahead)), 0.0);
 }
 
+hc_hit nearest(vec3 origin, vec3 along, float reach)
+{
+#ifdef DETAILS
+    return hc_nearest_detail(origin, along, reach, detail_left);
+#else
+    return hc_nearest(origin, along, reach);
+#endif
+}
+
 /* The ray from the sun to a hit, which ends before it. */
 bool in_shadow(vec3 place)
 {
     vec3  along = u_sun * u_scale;
     float away  = way_out(place, along) + u_shadow_slip;
-    return hc_nearest(place + away * along, -along, away - u_shadow_slip).t < HC_MISS;
+    float reach  = away - u_shadow_slip;
+    hc_hit cause = nearest(place + away * along, -along, reach);
+#ifdef HC_DETAIL_STEPS
+    if ((cause.flags & HC_UNCONVERGED) != 0) {
+        return false; /* steps that come to nothing hide nothing */
+    }
+#endif
+    return cause.t < HC_MISS;
 }
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
@@ -410,6 +434,9 @@ vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, vec3 from_eye, float to
     float lit   = lit_at(hit.place, normal, from_eye);
     vec3 colour = is_cut(hit) ? CUT_GROUND
                               : ground_colour(hit.place, normal, u_footprint * hit.t);
+#ifdef DETAILS
+    colour = is_cut(hit) ? colour : hc_details_colour(colour, hit.place.xy, detail_left);
+#endif
     return haze(light(colour, normal, lit), direction, top, hit.t);
 }
 
@@ -426,7 +453,8 @@ hc_hit look(vec3 place, vec3 along)
 #ifdef SKY
     return hc_hit(HC_MISS, place, 0, 0);
 #endif
-    hc_hit hit = hc_nearest(place, along, 1e30);
+    detail_left = -1.0;
+    hc_hit hit  = nearest(place, along, 1e30);
     if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
         hit.t = HC_MISS;
     }
@@ -450,6 +478,9 @@ void main(void)
     if (along < 0.0) {
         discard;
     }
+#ifdef DETAILS
+    detail_left = hc_details_left(distance_);
+#endif
     float lit    = lit_at(place, normal, v_from_eye);
     vec3 colour  = haze(light(v_colour, normal, lit), direction, u_haze_top - shift.z, distance_);
     o_light      = vec4(colour, distance_);

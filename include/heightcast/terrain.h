@@ -61,6 +61,28 @@ typedef struct hc_object {
     float          colour[3]; /* linear light. All zero: 0.45 0.16 0.10       */
 } hc_object;
 
+/* A small height map that repeats over the ground and is cut into it: where it is 1 the ground stays
+ * as it is, where it is 0 it lies `depth` lower, each times the mask's share there. Bilinear between
+ * its texels, as the ground is between its samples. Tiles begin in the field's north-west corner. */
+typedef struct hc_detail {
+    const float *heights; /* width * height, row-major, row 0 north  [0 .. 1]                    */
+    const float *colour;  /* likewise * 3, linear light, or NULL: it leaves the ground's         */
+    int          width, height;
+    double       tile;  /* world units across it, from west to east  [>= 0]  0: 16 samples       */
+    double       depth; /* world units, times the exaggeration  [>= 0]       0: a 16th of `tile` */
+} hc_detail;
+
+#define HC_DETAILS_MAX 4
+
+/* How a ray that has come to the coarse ground looks for the detail in it.
+ * safe   all patches and texels on its way, each by the polynomial that the gap is there: loses no
+ *        first hit, makes none up (docs/algorithms.md, section 22.9)
+ * steps  the RaycastTerrain sample's: equal steps, then bisection. What lies between two steps it
+ *        does not see; if it comes to nothing the coarse hit stands and counts as unconverged */
+typedef enum hc_detail_method { HC_DETAIL_SAFE = 0, HC_DETAIL_STEPS } hc_detail_method;
+HC_API const char *hc_detail_method_name(
+    hc_detail_method method); /* as above; NULL beyond the last. Static */
+
 typedef struct hc_terrain_scene {
     /* Heights are borrowed until the terrain is destroyed; no wrap. */
     hc_field field;
@@ -87,6 +109,22 @@ typedef struct hc_terrain_scene {
 
     hc_polygons polygons;
 
+    /* detail_count of them [0 .. HC_DETAILS_MAX], read by hc_terrain_create only; what they point
+     * to is borrowed until the terrain is destroyed. On the bilinear surface, with closed sides. */
+    const hc_detail *details;
+    int              detail_count;
+    /* mask_width * mask_height * 4: how much of each detail there is at each sample, of 255; as many
+     * texels as the field has samples, bilinear between them; borrowed. NULL: the same share
+     * of each everywhere, all of them together 1. */
+    const uint8_t   *mask;
+    int              mask_width, mask_height;
+    hc_detail_method detail_method;
+    int              detail_steps; /* of steps  [1 .. 65536]  0: 32 */
+    /* Distances from the eye, to where a ray comes to the coarse ground, at which details begin to
+     * sink into it and are gone: their colours become the mean of theirs  [near < far]. 0 0: 24 and
+     * 48 times the widest tile. */
+    double detail_fade[2];
+
     const hc_object *objects; /* object_count of them, read by hc_terrain_create only */
     int              object_count;
 
@@ -108,8 +146,9 @@ typedef struct hc_terrain hc_terrain;
  * options  view: shaded, height, normal, depth, crossings or missed; top does not count. NULL or
  *          zero: shaded, by the CPU
  *
- * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range. gl: those of hc_render,
- * and HC_ERROR_UNSUPPORTED for steps and open sides; polygons: where they cannot be. */
+ * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range and a mask of another size than
+ * the field. gl: those of hc_render, and HC_ERROR_UNSUPPORTED for steps and open sides; polygons and
+ * details: where they cannot be. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);
@@ -130,7 +169,7 @@ HC_API void      hc_terrain_destroy(hc_terrain *terrain);
 HC_API hc_result hc_terrain_draw(hc_picture *picture, const hc_terrain *terrain,
                                  const hc_camera *camera, hc_log *log);
 
-/* z of the surface at (x, y); beyond the field's sides that of the nearest place on them. */
+/* z of the surface, without details, at (x, y); beyond the field's sides that of the nearest place on them. */
 HC_API double hc_terrain_ground(const hc_terrain *terrain, double x, double y);
 
 /* The field's place: spacings, scale and offset as they were resolved. */

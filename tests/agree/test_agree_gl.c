@@ -1,112 +1,40 @@
 /* The shaders against the CPU: every method on every body, shadows and all; skipped where there is
  * no OpenGL. */
-#include <heightcast/bake.h>
-#include <heightcast/render.h>
+#include "shots.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
-
-enum { SIDE = 32, WIDE = 96, HIGH = 64, PIXELS = WIDE * HIGH };
-
-/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of the silhouette, of a
- * shadow, of a cut face, between steps of a march), where float32 and double decide differently. */
-enum { ODD_MAX = PIXELS / 1000, CODES_MAX = 2 };
-
-static float heights[SIDE * SIDE], l2[SIDE * SIDE], relaxed[SIDE * SIDE];
-static float l1[SIDE * SIDE], quad[SIDE * SIDE * 4];
-
-typedef struct shot {
-    float      rgb[PIXELS * 3], depth[PIXELS];
-    uint8_t    bytes[PIXELS * 3];
-    hc_picture picture;
-} shot;
-
-static shot cpu, gl;
-
-static hc_field field_of(void)
-{
-    return (hc_field){ .heights = heights, .width = SIDE, .height = SIDE, .wrap = HC_WRAP_UV };
-}
-
-static bool bake(float *ratios, hc_cones cones, hc_method method)
-{
-    const hc_field        field   = field_of();
-    const hc_cone_options options = { .cones = cones, .method = method };
-    return hc_bake_cone_map(ratios, &field, &options, NULL) == HC_OK;
-}
+static agree_maps maps;
+static agree_shot cpu, gl;
 
 static int prepare(void **state)
 {
-    static float cones[SIDE * SIDE * 4];
     (void)state;
-    bool good = hc_synth(heights, SIDE, SIDE, "cobbles", 2, NULL) == HC_OK
-                && bake(l2, HC_CONES_L2, HC_METHOD_EXACT)
-                && bake(relaxed, HC_CONES_L2, HC_METHOD_FALLING_EDGE)
-                && bake(cones, HC_CONES_L1, HC_METHOD_EXACT);
-    hc_bake_cell_ratios(l1, cones, SIDE, SIDE, HC_CONES_L1, HC_WRAP_UV);
-    good = good && bake(cones, HC_CONES_QUAD, HC_METHOD_EXACT);
-    hc_bake_cell_ratios(quad, cones, SIDE, SIDE, HC_CONES_QUAD, HC_WRAP_UV);
-    return good ? 0 : -1;
+    return agree_maps_bake(&maps, "cobbles", 32, 2, HC_WRAP_UV) ? 0 : -1;
 }
 
 static hc_scene scene_of(hc_body body, hc_trace_method method)
 {
-    hc_scene          scene = { .relief = { .field = field_of(), .body = body } };
-    hc_trace_options *trace = &scene.relief.trace;
-    trace->method           = method;
-    switch (hc_trace_method_needs(method)) {
-    case HC_NEEDS_CELL_RATIOS:
-        trace->ratios = quad;
-        trace->cones  = HC_CONES_QUAD;
-        break;
-    case HC_NEEDS_RATIOS: trace->ratios = l2; break;
-    case HC_NEEDS_RELAXED: trace->ratios = relaxed; break;
-    default: break;
-    }
+    hc_scene scene = { .relief = { .field = maps.field, .body = body } };
+    agree_maps_choose(&scene.relief.trace, &maps, method);
     return scene;
 }
 
-static void draw(shot *s, const hc_scene *scene, hc_view view, hc_backend backend)
+static void draw(agree_shot *shot, const hc_scene *scene, hc_view view, hc_backend backend)
 {
     const hc_render_options options = { .view = view, .backend = backend };
     hc_log                  log     = { .text = "" };
-    s->picture = (hc_picture){ .width = WIDE, .height = HIGH, .rgb = s->rgb, .depth = s->depth };
-    const hc_result result = hc_render(&s->picture, scene, &options, &log);
-    if (result == HC_ERROR_UNSUPPORTED && backend == HC_BACKEND_GL) {
-        print_message("%s\n", log.text);
-        skip();
-    }
-    if (result != HC_OK) {
-        fail_msg("%s", log.text);
-    }
-    hc_picture_bytes(s->bytes, &s->picture);
-}
-
-static int count_odd(void)
-{
-    int odd = 0;
-    for (int i = 0; i < PIXELS; i++) {
-        bool differs = false;
-        for (int k = 3 * i; k < 3 * i + 3; k++) {
-            differs = differs || abs(cpu.bytes[k] - gl.bytes[k]) > CODES_MAX;
-        }
-        odd += differs ? 1 : 0;
-    }
-    return odd;
+    agree_shot_open(shot);
+    agree_shot_close(shot, hc_render(&shot->picture, scene, &options, &log), backend, &log);
 }
 
 static void compare(const hc_scene *scene, hc_view view)
 {
     draw(&cpu, scene, view, HC_BACKEND_CPU);
     draw(&gl, scene, view, HC_BACKEND_GL);
-    const int odd = count_odd();
-    if (odd > ODD_MAX) {
+    const int odd = agree_shots_odd(&cpu, &gl);
+    if (odd > SHOT_ODD_MAX) {
         fail_msg("%s on %s: %d pixels differ", hc_trace_method_name(scene->relief.trace.method),
                  hc_body_name(scene->relief.body), odd);
     }
@@ -130,7 +58,7 @@ static void other_choices(void **state)
 {
     (void)state;
     hc_scene scene            = scene_of(HC_BODY_PLANE, HC_TRACE_SAFE);
-    scene.relief.trace.ratios = l1;
+    scene.relief.trace.ratios = maps.l1;
     scene.relief.trace.cones  = HC_CONES_L1;
     compare(&scene, HC_VIEW_SHADED);
     scene                          = scene_of(HC_BODY_PLANE, HC_TRACE_RELIEF);
@@ -222,13 +150,13 @@ static void depths_agree(void **state)
         int            odd = 0, both = 0;
         draw(&cpu, &scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
         draw(&gl, &scene, HC_VIEW_SHADED, HC_BACKEND_GL);
-        for (int i = 0; i < PIXELS; i++) {
+        for (int i = 0; i < SHOT_PIXELS; i++) {
             const bool hit = isfinite(cpu.depth[i]) && isfinite(gl.depth[i]);
             both += hit ? 1 : 0;
             odd += hit && fabsf(cpu.depth[i] - gl.depth[i]) > 0x1p-12F ? 1 : 0;
         }
         assert_true(both > 500);
-        assert_true(odd <= ODD_MAX);
+        assert_true(odd <= SHOT_ODD_MAX);
     }
 }
 
@@ -260,9 +188,10 @@ static void losses_agree(void **state)
         draw(&cpu, &scene, HC_VIEW_MISSED, HC_BACKEND_CPU);
         draw(&gl, &scene, HC_VIEW_MISSED, HC_BACKEND_GL);
         assert_true(a->lost + a->made_up > 100);
-        assert_in_range(a->lost, b->lost > ODD_MAX ? b->lost - ODD_MAX : 0, b->lost + ODD_MAX);
-        assert_in_range(a->made_up, b->made_up > ODD_MAX ? b->made_up - ODD_MAX : 0,
-                        b->made_up + ODD_MAX);
+        assert_in_range(a->lost, b->lost > SHOT_ODD_MAX ? b->lost - SHOT_ODD_MAX : 0,
+                        b->lost + SHOT_ODD_MAX);
+        assert_in_range(a->made_up, b->made_up > SHOT_ODD_MAX ? b->made_up - SHOT_ODD_MAX : 0,
+                        b->made_up + SHOT_ODD_MAX);
     }
 }
 

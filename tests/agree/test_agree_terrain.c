@@ -1,74 +1,33 @@
 /* shaders/terrain.frag against the CPU: every method from the air, the ground, a valley and
  * outside, shadows and all; skipped where there is no OpenGL. */
-#include <heightcast/bake.h>
+#include "shots.h"
+
 #include <heightcast/terrain.h>
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-#include <stddef.h>
-#include <stdlib.h>
 #include <string.h>
 
-#include <cmocka.h>
+enum { SIDE = 48 };
 
-enum { SIDE = 48, WIDE = 96, HIGH = 64, PIXELS = WIDE * HIGH };
-
-/* Of 1,000 pixels one may differ by more than 2 codes: those on an edge (of a ridge, of a shadow,
- * of a wall, between steps of a march), where float32 and double decide differently. */
-enum { ODD_MAX = PIXELS / 1000, CODES_MAX = 2 };
-
-static float heights[SIDE * SIDE], l2[SIDE * SIDE], relaxed[SIDE * SIDE];
-static float l1[SIDE * SIDE], quad[SIDE * SIDE * 4];
-
-typedef struct shot {
-    float      rgb[PIXELS * 3], depth[PIXELS];
-    uint8_t    bytes[PIXELS * 3];
-    hc_picture picture;
-} shot;
-
-static shot cpu, gl;
-
-static bool bake(float *ratios, hc_cones cones, hc_method method)
-{
-    const hc_field        field   = { .heights = heights, .width = SIDE, .height = SIDE };
-    const hc_cone_options options = { .cones = cones, .method = method };
-    return hc_bake_cone_map(ratios, &field, &options, NULL) == HC_OK;
-}
+static agree_maps maps;
+static agree_shot cpu, gl;
 
 static int prepare(void **state)
 {
-    static float cones[SIDE * SIDE * 4];
     (void)state;
-    bool good = hc_synth(heights, SIDE, SIDE, "fbm", 7, NULL) == HC_OK
-                && bake(l2, HC_CONES_L2, HC_METHOD_EXACT)
-                && bake(relaxed, HC_CONES_L2, HC_METHOD_FALLING_EDGE)
-                && bake(cones, HC_CONES_L1, HC_METHOD_EXACT);
-    hc_bake_cell_ratios(l1, cones, SIDE, SIDE, HC_CONES_L1, HC_WRAP_NONE);
-    good = good && bake(cones, HC_CONES_QUAD, HC_METHOD_EXACT);
-    hc_bake_cell_ratios(quad, cones, SIDE, SIDE, HC_CONES_QUAD, HC_WRAP_NONE);
-    return good ? 0 : -1;
+    return agree_maps_bake(&maps, "fbm", SIDE, 7, HC_WRAP_NONE) ? 0 : -1;
 }
 
 static hc_terrain_scene scene_of(hc_trace_method method)
 {
     hc_terrain_scene scene = {
-        .field   = { .heights = heights, .width = SIDE, .height = SIDE },
+        .field   = { .heights = maps.heights, .width = SIDE, .height = SIDE },
         .spacing = { 30.0, 40.0 },
         .low     = 500.0,
         .high    = 750.0,
         .offset  = { 2000.0, -1000.0, 10.0 },
     };
-    scene.trace.method = method;
-    switch (hc_trace_method_needs(method)) {
-    case HC_NEEDS_CELL_RATIOS:
-        scene.trace.ratios = quad;
-        scene.trace.cones  = HC_CONES_QUAD;
-        break;
-    case HC_NEEDS_RATIOS: scene.trace.ratios = l2; break;
-    case HC_NEEDS_RELAXED: scene.trace.ratios = relaxed; break;
-    default: break;
-    }
+    agree_maps_choose(&scene.trace, &maps, method);
     return scene;
 }
 
@@ -78,37 +37,16 @@ static hc_terrain *make(const hc_terrain_scene *scene, hc_view view, hc_backend 
     hc_log                  log     = { .text = "" };
     hc_terrain             *terrain = NULL;
     const hc_result         result  = hc_terrain_create(&terrain, scene, &options, &log);
-    if (result == HC_ERROR_UNSUPPORTED && backend == HC_BACKEND_GL) {
-        print_message("%s\n", log.text);
-        skip();
-    }
-    if (result != HC_OK) {
-        fail_msg("%s", log.text);
-    }
+    agree_skip_without_gl(result, backend, &log);
     return terrain;
 }
 
-static void draw(shot *s, const hc_terrain *terrain, const hc_camera *camera)
+static void draw(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera)
 {
     hc_log log = { .text = "" };
-    s->picture = (hc_picture){ .width = WIDE, .height = HIGH, .rgb = s->rgb, .depth = s->depth };
-    if (hc_terrain_draw(&s->picture, terrain, camera, &log) != HC_OK) {
-        fail_msg("%s", log.text);
-    }
-    hc_picture_bytes(s->bytes, &s->picture);
-}
-
-static int count_odd(void)
-{
-    int odd = 0;
-    for (int i = 0; i < PIXELS; i++) {
-        bool differs = false;
-        for (int k = 3 * i; k < 3 * i + 3; k++) {
-            differs = differs || abs(cpu.bytes[k] - gl.bytes[k]) > CODES_MAX;
-        }
-        odd += differs ? 1 : 0;
-    }
-    return odd;
+    agree_shot_open(shot);
+    agree_shot_close(shot, hc_terrain_draw(&shot->picture, terrain, camera, &log), HC_BACKEND_CPU,
+                     &log);
 }
 
 /* From every tour, and with parallel rays from above. */
@@ -122,8 +60,8 @@ static void compare(const hc_terrain_scene *scene, hc_view view)
         camera.orthographic = from > HC_TOUR_ORBIT ? 2500.0F : 0.0F;
         draw(&cpu, by_cpu, &camera);
         draw(&gl, by_gl, &camera);
-        const int odd = count_odd();
-        if (odd > ODD_MAX) {
+        const int odd = agree_shots_odd(&cpu, &gl);
+        if (odd > SHOT_ODD_MAX) {
             fail_msg("%s, camera %d: %d pixels differ", hc_trace_method_name(scene->trace.method),
                      from, odd);
         }
@@ -167,7 +105,7 @@ static void other_choices(void **state)
 {
     (void)state;
     hc_terrain_scene scene = scene_of(HC_TRACE_SAFE);
-    scene.trace.ratios     = l1;
+    scene.trace.ratios     = maps.l1;
     scene.trace.cones      = HC_CONES_L1;
     scene.sun[0]           = 0.4;
     scene.sun[1]           = -1.0;
@@ -246,13 +184,13 @@ static void depths_agree(void **state)
         hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.0);
         draw(&cpu, by_cpu, &camera);
         draw(&gl, by_gl, &camera);
-        for (int i = 0; i < PIXELS; i++) {
+        for (int i = 0; i < SHOT_PIXELS; i++) {
             const bool hit = isfinite(cpu.depth[i]) && isfinite(gl.depth[i]);
             both += hit ? 1 : 0;
             odd += hit && fabsf(cpu.depth[i] - gl.depth[i]) > 0x1p-12F * 1920.0F ? 1 : 0;
         }
         assert_true(both > 500);
-        assert_true(odd <= ODD_MAX);
+        assert_true(odd <= SHOT_ODD_MAX);
         const double steps = cpu.picture.figures.mean_steps - gl.picture.figures.mean_steps;
         const double moves = cpu.picture.figures.mean_crossings - gl.picture.figures.mean_crossings;
         assert_true(fabs(steps) < 0.02 && fabs(moves) < 0.02);
@@ -292,7 +230,7 @@ static void flat_patches_are_their_triangles(void **state)
     scene.field.heights      = flat;
     scene.field.registration = HC_GRID; /* texels' outermost halves have no triangles */
     for (int i = 0; i < SIDE * SIDE; i++) {
-        flat[i] = 0.5F * (heights[i % SIDE] + heights[i / SIDE * SIDE]);
+        flat[i] = 0.5F * (maps.heights[i % SIDE] + maps.heights[i / SIDE * SIDE]);
     }
     hc_terrain *by_rays = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
     scene.polygons      = HC_POLYGONS_FULL;
@@ -302,8 +240,8 @@ static void flat_patches_are_their_triangles(void **state)
         hc_terrain_tour(&camera, by_rays, (hc_tour)tour, 0.3);
         draw(&cpu, by_rays, &camera);
         draw(&gl, by_mesh, &camera);
-        if (count_odd() > ODD_MAX) {
-            fail_msg("camera %d: %d pixels differ", tour, count_odd());
+        if (agree_shots_odd(&cpu, &gl) > SHOT_ODD_MAX) {
+            fail_msg("camera %d: %d pixels differ", tour, agree_shots_odd(&cpu, &gl));
         }
         assert_true(gl.picture.figures.hits > 500);
         assert_true(cpu.picture.figures.mean_crossings > 1.0);
@@ -331,10 +269,10 @@ static void coarse_blocks_leave_no_gaps(void **state)
         draw(&cpu, full, &camera);
         draw(&gl, lod, &camera);
         changed += memcmp(cpu.depth, gl.depth, sizeof gl.depth) != 0 ? 1 : 0;
-        for (int i = WIDE + 1; i < PIXELS - WIDE - 1; i++) {
+        for (int i = SHOT_WIDE + 1; i < SHOT_PIXELS - SHOT_WIDE - 1; i++) {
             bool within = true;
             for (int k = 0; k < 9; k++) {
-                within = within && isfinite(cpu.depth[i + (k / 3 - 1) * WIDE + k % 3 - 1]);
+                within = within && isfinite(cpu.depth[i + (k / 3 - 1) * SHOT_WIDE + k % 3 - 1]);
             }
             assert_true(!within || isfinite(gl.depth[i]));
         }
@@ -380,7 +318,7 @@ static void terrains_take_turns(void **state)
     const hc_camera camera        = { .fov = 60.0F };
     draw(&cpu, a, &camera);
     draw(&gl, b, &camera);
-    assert_true(count_odd() > 1000);
+    assert_true(agree_shots_odd(&cpu, &gl) > 1000);
     assert_int_equal(hc_terrain_draw(&little, a, &camera, NULL), HC_OK);
     hc_terrain_destroy(b);
     draw(&gl, a, &camera);

@@ -6,6 +6,7 @@ import signal
 import struct
 import subprocess
 import time
+import zlib
 
 from picture import read_picture
 from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, PROGRAM, USAGE, Case, main
@@ -201,6 +202,71 @@ class Terrain(Case):
             figures = self.render("--backend", "gl", "--method", "maxmip", "--polygons", polygons)
             self.assertAlmostEqual(figures["hits"], rays, delta=0.02 * rays)
             self.assertEqual(figures["mean_fetches"], 0)
+
+    def write_texels(self, name, width, height, texels):
+        """Of 8 bits; channels by their number."""
+        channels = len(texels) // (width * height)
+        rows = b"".join(b"\0" + bytes(texels[channels * width * y:channels * width * (y + 1)])
+                        for y in range(height))
+        kind = {1: 0, 3: 2, 4: 6}[channels]
+        chunks = b""
+        for tag, body in [(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, kind, 0, 0, 0)),
+                          (b"IDAT", zlib.compress(rows)), (b"IEND", b"")]:
+            chunks += (struct.pack(">I", len(body)) + tag + body
+                       + struct.pack(">I", zlib.crc32(tag + body)))
+        self.path(name).write_bytes(b"\x89PNG\r\n\x1a\n" + chunks)
+
+    def details(self):
+        """A map, its colours, and a mask for the hills whose first channel is 0 in the west."""
+        self.write_texels("d.png", 4, 4, [60 * (i % 5) for i in range(16)])
+        self.write_texels("c.png", 4, 4, [16 * (i % 11) for i in range(48)])
+        self.write_texels("m.png", 24, 17,
+                          [value for i in range(24 * 17) for value in (0 if i % 24 < 12 else 255,
+                                                                       200, 0, 0)])
+
+    def test_details(self):
+        self.details()
+        base = ["--spacing", "20", "--eye", "60,-300,300", "--at", "240,-60,0"]
+        pictures = [self.picture(*base, *more) for more in [
+            [],
+            ["--detail", "d.png,100,20"],
+            ["--detail", "d.png,c.png,100,20"],
+            ["--detail", "d.png,100,20", "--detail", "d.png,c.png,33", "--mask", "m.png"],
+            ["--detail", "d.png,100,20", "--detail-method", "steps", "--detail-steps", "3"],
+            ["--detail", "d.png,c.png"],
+        ]]
+        for i, one in enumerate(pictures):
+            for other in pictures[i + 1:]:
+                self.assertNotEqual(one, other)
+        faded = self.picture(*base, "--detail", "d.png,100,20", "--detail-fade", "0:0.001")
+        self.assertEqual(faded, pictures[0])
+        figures = self.render(*base, "--detail", "d.png,100,20", "--view", "missed")
+        self.assertEqual((figures["lost"], figures["made_up"]), (0, 0))
+
+    def test_bad_details(self):
+        self.details()
+        self.write_texels("small.png", 23, 17, [0] * (23 * 17 * 4))
+        self.write_texels("rgb.png", 24, 17, [0] * (24 * 17 * 3))
+        out = ["--out", "a.png", "--spacing", "20"]
+        four = ["--detail", "d.png"] * 4
+        for arguments, code, says in [
+            (["--mask", "m.png"], USAGE, "--mask needs --detail"),
+            (["--detail", "d.png", "--detail-steps", "4"], USAGE, "--detail-method steps"),
+            (["--detail", "d.png,-3"], INPUT_OUTPUT, "-3"),
+            (["--detail", "d.png,c.png,x"], USAGE, "TILE"),
+            (["--detail", "d.png,1,2,3"], USAGE, "TILE"),
+            (["--detail", ",d.png"], USAGE, "MAP"),
+            (four + ["--detail", "d.png"], USAGE, "up to 4 times"),
+            (["--detail", "d.png", "--detail-fade", "9:3"], USAGE, "NEAR:FAR"),
+            (["--detail", "d.png,m.png"], BAD_FILE, "m.png is 24 x 17 and its heights, d.png, 4 x 4"),
+            (["--detail", "d.png", "--mask", "small.png"], BAD_FILE,
+             "small.png is 23 x 17; the terrain has 24 x 17 samples"),
+            (four + ["--mask", "rgb.png"], BAD_FILE, "rgb.png has 3 channels; 4 details"),
+            (["--detail", "none.png"], INPUT_OUTPUT, "none.png"),
+            (["--detail", "d.png", "--surface", "steps"], BAD_FILE, "steps have none"),
+        ]:
+            with self.subTest(arguments=arguments):
+                self.refuse(*out, *arguments, code=code, says=says)
 
     def test_tiles_that_do_not_fit(self):
         tiles = self.cut("t", 2, 2, 0)

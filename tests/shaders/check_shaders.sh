@@ -13,6 +13,7 @@ mkdir -p "$folder"
 compiled=0
 failed=0
 scene=relief
+between= # files between the marchers and the scene
 
 head_of() {
     if [ "$1" = es ]; then
@@ -42,7 +43,7 @@ fragment() {
         for define in "$@"; do
             printf '#define %s\n' "$define"
         done
-        cat "$shaders/heightcast.glsl" "$shaders/$scene.frag"
+        cat "$shaders/heightcast.glsl" ${between:+"$shaders/$between"} "$shaders/$scene.frag"
     } >"$folder/$name"
 }
 
@@ -56,6 +57,17 @@ for language in core es; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag
+        if [ $method != QDM ]; then
+            between=detail.glsl
+            for how in SAFE STEPS; do
+                for part in RAYS BODIES; do
+                    fragment $language-detail-$how-$part-$method.frag $language \
+                        "HC_METHOD HC_$method" DETAILS HC_DETAIL_$how $part
+                    check $language-detail-$how-$part-$method.frag frag
+                done
+            done
+            between=
+        fi
         fragment $language-polygons-$method.frag $language "HC_METHOD HC_$method" POLYGONS
         check $language-polygons-$method.frag frag
         for scene in terrain relief; do

@@ -9,25 +9,33 @@ static float linear_of(float code)
     return code <= 0.04045F ? code / 12.92F : powf((code + 0.055F) / 1.055F, 2.4F);
 }
 
-/* One channel after the other, as heights are read. */
-int hc_cli_load_albedo(hc_cli *cli, float **rgb, int *width, int *height)
+int hc_cli_load_channel(hc_field *plane, hc_cli *cli, const char *path, hc_channel channel)
 {
-    hc_log log = { .text = "" }; /* without its warning of sRGB, which is right here */
+    hc_log          log    = { .text = "" }; /* without its warning of sRGB, which is right here */
+    hc_load_options load   = { .normalise = { .channel = channel, .range = HC_RANGE_TYPE },
+                               .limits    = cli->settings.load.limits };
+    hc_result       result = hc_load_field(plane, path, &load, &log);
+    if (result != HC_OK) {
+        load.normalise.channel = HC_CHANNEL_AUTO;
+        result                 = hc_load_field(plane, path, &load, &log);
+    }
+    if (result != HC_OK) {
+        cli->log = (hc_log){ .warn = cli->log.warn, .user = cli->log.user };
+        memcpy(cli->log.text, log.text, sizeof log.text);
+        return hc_cli_fail_result(cli, result);
+    }
+    return HC_CLI_DONE;
+}
+
+/* One channel after the other, as heights are read. */
+int hc_cli_load_colours(hc_cli *cli, const char *path, float **rgb, int *width, int *height)
+{
     for (int channel = 0; channel < 3; channel++) {
-        const hc_load_options load   = { .normalise = { .channel = HC_CHANNEL_AUTO,
-                                                        .range   = HC_RANGE_TYPE },
-                                         .limits    = cli->settings.load.limits };
-        hc_load_options       chosen = load;
-        hc_field              plane;
-        chosen.normalise.channel = (hc_channel)(HC_CHANNEL_R + channel);
-        hc_result result = hc_load_field(&plane, cli->settings.render.albedo, &chosen, &log);
-        if (result != HC_OK) { /* grey images have but one */
-            result = hc_load_field(&plane, cli->settings.render.albedo, &load, &log);
-        }
-        if (result != HC_OK) {
-            cli->log = (hc_log){ .warn = cli->log.warn, .user = cli->log.user };
-            memcpy(cli->log.text, log.text, sizeof log.text);
-            return hc_cli_fail_result(cli, result);
+        hc_field  plane;
+        const int code =
+            hc_cli_load_channel(&plane, cli, path, (hc_channel)(HC_CHANNEL_R + channel));
+        if (code != HC_CLI_DONE) {
+            return code;
         }
         const size_t count = (size_t)plane.width * (size_t)plane.height;
         if (*rgb == NULL) {

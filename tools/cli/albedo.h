@@ -4,8 +4,14 @@
 
 #include "cli.h"
 
-/* Load --albedo, in linear light. *rgb is NULL before, and freed by the caller whatever comes of
+#include <heightcast/io.h>
+
+/* Load one of its channels, codes as 0 .. 1; grey images have but one. Freed with hc_free_field.
+ * Returns the exit code. */
+int hc_cli_load_channel(hc_field *plane, hc_cli *cli, const char *path, hc_channel channel);
+
+/* Load an image in linear light. *rgb is NULL before, and freed by the caller whatever comes of
  * it. Returns the exit code. */
-int hc_cli_load_albedo(hc_cli *cli, float **rgb, int *width, int *height);
+int hc_cli_load_colours(hc_cli *cli, const char *path, float **rgb, int *width, int *height);
 
 #endif

@@ -37,6 +37,20 @@ static int check_pair(hc_cli *cli, const char *a, const char *b)
                : HC_CLI_DONE;
 }
 
+static int check_details(hc_cli *cli)
+{
+    static const char *const needing[] = { "mask", "detail-method", "detail-steps", "detail-fade" };
+    const hc_cli_detail_list *details  = &cli->settings.terrain.details;
+    for (size_t i = 0; i < sizeof needing / sizeof *needing; i++) {
+        if (details->count == 0 && hc_cli_given(&cli->settings, needing[i])) {
+            return hc_cli_fail(cli, HC_CLI_USAGE, "--%s needs --detail", needing[i]);
+        }
+    }
+    return details->steps > 0 && details->method != HC_DETAIL_STEPS
+               ? hc_cli_fail(cli, HC_CLI_USAGE, "--detail-steps needs --detail-method steps")
+               : HC_CLI_DONE;
+}
+
 static int check_meaning(hc_cli *cli)
 {
     static const char *const pairs[][2] = { { "eye", "tour" },       { "eye", "path" },
@@ -60,7 +74,7 @@ static int check_meaning(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
                            hc_cones_name(cones));
     }
-    return HC_CLI_DONE;
+    return check_details(cli);
 }
 
 /* ---- figures ---- */

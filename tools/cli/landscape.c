@@ -83,8 +83,8 @@ static int load_ground(hc_cli_landscape *landscape, hc_cli *cli)
     int code = one ? hc_cli_scene_load(&landscape->ground, cli, settings->paths[0])
                    : load_tiles(&landscape->ground, cli);
     if (code == HC_CLI_DONE && settings->render.albedo != NULL) {
-        code = hc_cli_load_albedo(cli, &landscape->image, &landscape->scene.image_width,
-                                  &landscape->scene.image_height);
+        code = hc_cli_load_colours(cli, settings->render.albedo, &landscape->image,
+                                   &landscape->scene.image_width, &landscape->scene.image_height);
     }
     if (code == HC_CLI_DONE) {
         code = hc_cli_objects_load(&landscape->objects, cli);
@@ -139,14 +139,16 @@ int hc_cli_landscape_load(hc_cli_landscape *landscape, hc_cli *cli)
 {
     *landscape     = (hc_cli_landscape){ .image = NULL };
     const int code = load_ground(landscape, cli);
-    if (code == HC_CLI_DONE) {
-        choose_scene(landscape, cli);
+    if (code != HC_CLI_DONE) {
+        return code;
     }
-    return code;
+    choose_scene(landscape, cli);
+    return hc_cli_details_load(&landscape->details, &landscape->scene, cli);
 }
 
 void hc_cli_landscape_free(hc_cli_landscape *landscape)
 {
+    hc_cli_details_free(&landscape->details);
     hc_cli_objects_free(&landscape->objects);
     free(landscape->image);
     hc_cli_scene_free(&landscape->ground);

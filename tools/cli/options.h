@@ -64,10 +64,11 @@ bool hc_cli_given(const hc_cli_settings *settings, const char *name);
 /* Readers: an int or uint64_t in low .. high, a float above low and up to high, a word as its
  * index, a word that is itself the number, "WIDTHxHEIGHT" or one side, range, RAW description, text
  * as it is, three numbers "X,Y,Z", one or two positive distances "X,Y", rising numbers "LOW:HIGH",
- * one or two tile counts "U,V", a double from 0 to 1. */
+ * one or two tile counts "U,V", a double from 0 to 1, one more of hc_cli_detail_list. */
 hc_cli_reader hc_cli_read_int, hc_cli_read_u64, hc_cli_read_float, hc_cli_read_word,
     hc_cli_read_number_word, hc_cli_read_size, hc_cli_read_range, hc_cli_read_raw, hc_cli_read_text,
-    hc_cli_read_point, hc_cli_read_spacing, hc_cli_read_rise, hc_cli_read_tiles, hc_cli_read_share;
+    hc_cli_read_point, hc_cli_read_spacing, hc_cli_read_rise, hc_cli_read_tiles, hc_cli_read_share,
+    hc_cli_read_detail;
 
 /* Words of an option as "a, b, c" (separator ", ") or "a|b|c". */
 void hc_cli_join_words(char *text, size_t size, hc_cli_words *words, const char *separator);

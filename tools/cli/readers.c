@@ -162,6 +162,56 @@ bool hc_cli_read_share(const hc_cli_option *option, const char *text, hc_cli_set
     return number_until(text, '\0', share, &text) && *share >= 0.0 && *share <= 1.0;
 }
 
+/* The name of a file, up to a comma. */
+static bool name_until_comma(char name[HC_CLI_PATH_LENGTH], const char **text)
+{
+    const size_t length = strcspn(*text, ",");
+    if (length == 0 || length >= HC_CLI_PATH_LENGTH) {
+        return false;
+    }
+    memcpy(name, *text, length);
+    name[length] = '\0';
+    *text += length + ((*text)[length] == ',' ? 1 : 0);
+    return true;
+}
+
+/* A number above 0 at the start, up to a comma or the end. */
+static bool length_until_comma(double *value, const char **text)
+{
+    const char end = strchr(*text, ',') != NULL ? ',' : '\0';
+    return number_until(*text, end, value, text) && *value > 0.0;
+}
+
+/* What is no number behind the map is its colour. */
+bool hc_cli_read_detail(const hc_cli_option *option, const char *text, hc_cli_settings *settings)
+{
+    hc_cli_detail_list *details = target_of(option, settings);
+    if (details->count == HC_DETAILS_MAX) {
+        return false;
+    }
+    hc_cli_detail *detail  = &details->maps[details->count++];
+    double        *sizes[] = { &detail->tile, &detail->depth };
+    double         number;
+    const char    *rest = text;
+    if (!name_until_comma(detail->map, &rest)) {
+        return false;
+    }
+    text = rest;
+    if (*text != '\0' && !length_until_comma(&number, &rest)) {
+        rest = text;
+        if (!name_until_comma(detail->colour, &rest)) {
+            return false;
+        }
+        text = rest;
+    }
+    for (int i = 0; i < 2 && *text != '\0'; i++) {
+        if (!length_until_comma(sizes[i], &text)) {
+            return false;
+        }
+    }
+    return *text == '\0';
+}
+
 /* "u16be" and the like: the type, and the byte order behind it. */
 static bool read_sample_type(const char *text, hc_load_options *load)
 {

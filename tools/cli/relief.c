@@ -80,7 +80,8 @@ static int choose_colours(hc_cli_relief *relief, hc_cli *cli)
         return HC_CLI_DONE;
     }
     if (cli->settings.render.albedo != NULL) {
-        code = hc_cli_load_albedo(cli, &relief->albedo, &m->albedo_width, &m->albedo_height);
+        code = hc_cli_load_colours(cli, cli->settings.render.albedo, &relief->albedo,
+                                   &m->albedo_width, &m->albedo_height);
     } else {
         const hc_field *field = &relief->ground.field;
         relief->albedo =

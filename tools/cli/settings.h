@@ -61,18 +61,35 @@ typedef struct hc_cli_render {
     const char   *albedo, *depth_out;
 } hc_cli_render;
 
+/* --detail, up to as many times as there are channels in a mask. */
+#define HC_CLI_PATH_LENGTH 1024
+typedef struct hc_cli_detail {
+    char   map[HC_CLI_PATH_LENGTH], colour[HC_CLI_PATH_LENGTH]; /* colour "": none */
+    double tile, depth;                                         /* 0: not given    */
+} hc_cli_detail;
+
+typedef struct hc_cli_detail_list {
+    hc_cli_detail    maps[HC_DETAILS_MAX];
+    int              count;
+    const char      *mask;
+    hc_detail_method method;
+    int              steps;
+    double           fade[2];
+} hc_cli_detail_list;
+
 /* render terrain, beside what it shares with render */
 typedef struct hc_cli_terrain {
-    int         view, ground; /* indices of words */
-    hc_tour     tour;
-    float       exaggeration, above, haze;
-    double      offset[3], moment;
-    bool        blocky;
-    int         shadow_map;
-    const char *path, *objects;
-    hc_cli_size tiles; /* columns and rows */
-    hc_seams    seams;
-    hc_polygons polygons;
+    int                view, ground; /* indices of words */
+    hc_tour            tour;
+    float              exaggeration, above, haze;
+    double             offset[3], moment;
+    bool               blocky;
+    int                shadow_map;
+    const char        *path, *objects;
+    hc_cli_size        tiles; /* columns and rows */
+    hc_seams           seams;
+    hc_polygons        polygons;
+    hc_cli_detail_list details;
 } hc_cli_terrain;
 
 /* All zero: the defaults, as the library's own option structs have them. */

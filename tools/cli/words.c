@@ -165,6 +165,11 @@ const char *hc_cli_polygons_words(int index)
     return hc_polygons_name((hc_polygons)index);
 }
 
+const char *hc_cli_detail_words(int index)
+{
+    return hc_detail_method_name((hc_detail_method)index);
+}
+
 const char *hc_cli_seams_words(int index)
 {
     static const char *const words[] = { "auto", "shared", "apart", NULL };

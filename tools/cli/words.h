@@ -10,6 +10,7 @@ hc_cli_words hc_cli_wrap_words, hc_cli_registration_words, hc_cli_kind_words, hc
     hc_cli_marcher_words, hc_cli_backend_words, hc_cli_bits_words, hc_cli_compat_words,
     hc_cli_body_words, hc_cli_edge_words, hc_cli_view_words, hc_cli_refine_words,
     hc_cli_switch_words, hc_cli_tracer_words, hc_cli_terrain_view_words, hc_cli_ground_words,
-    hc_cli_tour_words, hc_cli_seams_words, hc_cli_motion_words, hc_cli_polygons_words;
+    hc_cli_tour_words, hc_cli_seams_words, hc_cli_motion_words, hc_cli_polygons_words,
+    hc_cli_detail_words;
 
 #endif

@@ -2,6 +2,7 @@
 
 #include "../stage.h"
 #include "bands.h"
+#include "details.h"
 #include "polygons.h"
 #include "upload.h"
 
@@ -15,7 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { HEIGHTS = 0, RATIOS, BOUNDS, EXACT_BOUNDS, IMAGE, BODIES, SUNVIEW, TEXTURES };
+enum {
+    HEIGHTS = 0,
+    RATIOS,
+    BOUNDS,
+    EXACT_BOUNDS,
+    IMAGE,
+    BODIES,
+    SUNVIEW,
+    DETAILS,
+    TEXTURES = DETAILS + HC_DETAIL_UNITS
+};
 
 enum { BODY_COLUMNS = 4096 };
 
@@ -81,7 +92,7 @@ static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc
         result = hc_upload_image(&textures[IMAGE], IMAGE, scene->image, scene->image_width,
                                  scene->image_height, 3, "image", log);
     }
-    return result;
+    return result == HC_OK ? hc_details_upload(&textures[DETAILS], DETAILS, terrain, log) : result;
 }
 
 /* ---- bodies -------------------------------------------------------------------------------- */
@@ -174,6 +185,16 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_pair(program, "u_spacing", scene->spacing[0], scene->spacing[1]);
     hc_upload_int(program, "u_ground", (int)scene->ground);
     hc_upload_int(program, "u_blocky", scene->blocky);
+    hc_details_set_uniforms(program, DETAILS, terrain);
+}
+
+/* The exact program finds details safely. */
+static const char *details_of(const hc_terrain *terrain, bool exact)
+{
+    return terrain->details.count == 0                               ? ""
+           : exact || terrain->scene.detail_method == HC_DETAIL_SAFE ? "#define DETAILS\n"
+                                                                     : "#define DETAILS\n"
+                                                                       "#define HC_DETAIL_STEPS\n";
 }
 
 /* before: the vertex shader. */
@@ -181,15 +202,20 @@ static hc_result build(unsigned *program, const hc_terrain *terrain, const char 
                        hc_log *log)
 {
     const hc_trace_options *trace = &terrain->scene.trace;
-    char                    head[160];
+    char                    head[224];
     hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
     const char *part = strcmp(before, "bodies.vert") == 0                      ? "BODIES"
                        : strcmp(before, "ground.vert") == 0                    ? "POLYGONS"
                        : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
                                                                                : "RAYS";
-    (void)snprintf(head + strlen(head), sizeof head - strlen(head), "#define %s\n", part);
-    const hc_gl_recipe recipe = hc_gl_recipe_of(head, before, "terrain.frag");
-    const hc_result    result = hc_gl_build(program, &recipe, log);
+    (void)snprintf(head + strlen(head), sizeof head - strlen(head), "#define %s\n%s", part,
+                   details_of(terrain, exact));
+    hc_gl_recipe recipe = hc_gl_recipe_of(head, before, "terrain.frag");
+    if (terrain->details.count > 0) { /* between the marchers and what is drawn with them */
+        recipe.fragment[2] = recipe.fragment[1];
+        recipe.fragment[1] = (hc_shader_text){ "detail.glsl", hc_shader_text_named("detail.glsl") };
+    }
+    const hc_result result = hc_gl_build(program, &recipe, log);
     if (result == HC_OK) {
         glUseProgram(*program);
         set_scene(*program, terrain, exact);

@@ -35,6 +35,18 @@ hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int 
     return hc_gl_check(what, log);
 }
 
+hc_result hc_upload_bytes(unsigned *texture, int unit, const uint8_t *texels, int width, int height,
+                          const char *what, hc_log *log)
+{
+    const hc_result result = hc_gl_check_size(width, height, what, log);
+    if (result != HC_OK) {
+        return result;
+    }
+    begin_texture(texture, unit, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, texels);
+    return hc_gl_check(what, log);
+}
+
 void hc_upload_wrap(hc_wrap wrap)
 {
     const bool u = ((unsigned)wrap & HC_WRAP_U) != 0;

@@ -11,6 +11,9 @@
 
 hc_result hc_upload_image(unsigned *texture, int unit, const float *texels, int width, int height,
                           int channels, const char *what, hc_log *log);
+/* Four channels of a byte each, as 0 .. 1. */
+hc_result hc_upload_bytes(unsigned *texture, int unit, const uint8_t *texels, int width, int height,
+                          const char *what, hc_log *log);
 /* Of the texture just loaded: textureGather reads over the edges that repeat. */
 void hc_upload_wrap(hc_wrap wrap);
 /* Heights and ratios that are textures already. */

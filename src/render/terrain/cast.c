@@ -15,7 +15,7 @@ enum { PIECE = 4096 }; /* rays at a time */
 /* Of one thread. */
 typedef struct scratch {
     hc_ray    *rays;
-    hc_hit    *hits, *exact;
+    hc_hit    *hits, *exact, *to_sun_hits; /* NULL where they are not needed */
     hc_glance *glances;
     hc_ray    *to_sun;
     uint8_t   *dark;
@@ -52,13 +52,32 @@ static void aim(hc_ray *rays, const job *j, piece p)
     }
 }
 
+/* Detail by detail: what the ground hides lies in its layer, and may see the sun. Steps that come to
+ * nothing hide nothing. */
+static void ask_details(const scratch *s, const hc_terrain *terrain, int count)
+{
+    const hc_detail_method method = terrain->scene.detail_method;
+    hc_trace_nearest_many(terrain->tracer, s->to_sun_hits, s->to_sun, (size_t)count);
+    for (int i = 0; i < count; i++) {
+        hc_hit *hit = &s->to_sun_hits[i];
+        (void)hc_details_dig(hit, terrain, terrain->tracer, &s->to_sun[i], method,
+                             s->glances[i].left);
+        const bool lost = method == HC_DETAIL_STEPS && (hit->flags & HC_HIT_UNCONVERGED) != 0;
+        s->dark[i]      = hit->t < INFINITY && !lost ? 1 : 0;
+    }
+}
+
 static void cast_to_sun(const scratch *s, const job *j, int count)
 {
     const hc_terrain *terrain = j->terrain;
     for (int i = 0; i < count; i++) {
         s->to_sun[i] = hc_terrain_sun_ray(terrain, &s->glances[i]);
     }
-    hc_trace_any_many(terrain->tracer, s->dark, s->to_sun, (size_t)count);
+    if (terrain->details.count > 0) {
+        ask_details(s, terrain, count);
+    } else {
+        hc_trace_any_many(terrain->tracer, s->dark, s->to_sun, (size_t)count);
+    }
     for (int i = 0; i < count; i++) {
         if (s->to_sun[i].tmin > s->to_sun[i].tmax) {
             s->dark[i] = 1; /* it faces away, though rough ground may face the sun here and there */
@@ -78,13 +97,22 @@ static void cut_below(hc_hit *hits, int count)
     }
 }
 
+static void dig_exact(const scratch *s, const hc_terrain *terrain, int count)
+{
+    for (int i = 0; i < count && terrain->details.count > 0; i++) {
+        (void)hc_details_dig(&s->exact[i], terrain, terrain->exact, &s->rays[i], HC_DETAIL_SAFE,
+                             HC_BY_DISTANCE);
+    }
+}
+
 static void cast(const scratch *s, const job *j, int count)
 {
     const hc_terrain *terrain = j->terrain;
     hc_trace_nearest_many(terrain->tracer, s->hits, s->rays, (size_t)count);
     cut_below(s->hits, count);
     for (int i = 0; i < count; i++) {
-        s->glances[i] = (hc_glance){ s->rays[i], s->hits[i], { .t = INFINITY } };
+        s->glances[i] = (hc_glance){ s->rays[i], s->hits[i], { .t = INFINITY }, 0.0 };
+        hc_terrain_dig(&s->glances[i], terrain);
         if (terrain->bodies != NULL) {
             hc_terrain_find_body(&s->glances[i], terrain);
         }
@@ -92,6 +120,7 @@ static void cast(const scratch *s, const job *j, int count)
     if (terrain->exact != NULL) {
         hc_trace_nearest_many(terrain->exact, s->exact, s->rays, (size_t)count);
         cut_below(s->exact, count);
+        dig_exact(s, terrain, count);
     }
 }
 
@@ -149,16 +178,18 @@ static void draw_row(void *context, int row, int worker)
 
 /* ---- memory -------------------------------------------------------------------------------- */
 
-static bool take(scratch *s, bool exact)
+static bool take(scratch *s, bool exact, bool details)
 {
-    s->rays    = malloc(PIECE * sizeof *s->rays);
-    s->hits    = malloc(PIECE * sizeof *s->hits);
-    s->exact   = exact ? malloc(PIECE * sizeof *s->exact) : NULL;
-    s->glances = malloc(PIECE * sizeof *s->glances);
-    s->to_sun  = malloc(PIECE * sizeof *s->to_sun);
-    s->dark    = calloc(PIECE, sizeof *s->dark);
-    return s->rays != NULL && s->hits != NULL && (s->exact != NULL || !exact) && s->glances != NULL
-           && s->to_sun != NULL && s->dark != NULL;
+    s->to_sun_hits = details ? malloc(PIECE * sizeof *s->to_sun_hits) : NULL;
+    s->rays        = malloc(PIECE * sizeof *s->rays);
+    s->hits        = malloc(PIECE * sizeof *s->hits);
+    s->exact       = exact ? malloc(PIECE * sizeof *s->exact) : NULL;
+    s->glances     = malloc(PIECE * sizeof *s->glances);
+    s->to_sun      = malloc(PIECE * sizeof *s->to_sun);
+    s->dark        = calloc(PIECE, sizeof *s->dark);
+    return s->rays != NULL && s->hits != NULL && (s->exact != NULL || !exact)
+           && (s->to_sun_hits != NULL || !details) && s->glances != NULL && s->to_sun != NULL
+           && s->dark != NULL;
 }
 
 static void release(scratch *s)
@@ -166,6 +197,7 @@ static void release(scratch *s)
     free(s->rays);
     free(s->hits);
     free(s->exact);
+    free(s->to_sun_hits);
     free(s->glances);
     free(s->to_sun);
     free(s->dark);
@@ -189,7 +221,7 @@ hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_
                           .scratches = all };
     bool      enough  = all != NULL;
     for (int i = 0; enough && i < threads; i++) {
-        enough = take(&all[i], terrain->exact != NULL);
+        enough = take(&all[i], terrain->exact != NULL, terrain->details.count > 0);
     }
     const hc_result result =
         enough ? hc_parallel_for(eye->height, threads, draw_row, &j, terrain->options.progress, log)

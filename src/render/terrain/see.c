@@ -57,6 +57,9 @@ static void normal_at(double normal[3], const hc_terrain *terrain, const hc_glan
     for (int k = 0; k < 3; k++) {
         normal[k] = (double)out[k];
     }
+    if (terrain->details.count > 0 && !is_cut(terrain, &glance->hit)) {
+        hc_details_bend(normal, terrain, &glance->hit, glance->left);
+    }
 }
 
 /* ---- the sun ------------------------------------------------------------------------------- */
@@ -107,12 +110,23 @@ double hc_terrain_body_slip(const hc_terrain *terrain)
     return 0x1p-20 * terrain->side;
 }
 
+void hc_terrain_dig(hc_glance *glance, const hc_terrain *terrain)
+{
+    if (terrain->details.count > 0) {
+        glance->left = hc_details_dig(&glance->hit, terrain, terrain->tracer, &glance->ray,
+                                      terrain->scene.detail_method, HC_BY_DISTANCE);
+    }
+}
+
 void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain)
 {
     double origin[3], direction[3];
     split_ray(origin, direction, &glance->ray);
     glance->body =
         hc_bodies_nearest(terrain->bodies, origin, direction, 0.0, (double)glance->hit.t);
+    if (is_body(glance) && terrain->details.count > 0) { /* those that shade it */
+        glance->left = hc_details_left(terrain, glance->body.t);
+    }
 }
 
 bool hc_terrain_body_shades(const hc_terrain *terrain, const hc_glance *glance)
@@ -160,6 +174,7 @@ static void colour_at(double rgb[3], double normal[3], const hc_terrain *terrain
         memcpy(rgb, CUT_GROUND, sizeof CUT_GROUND);
     } else {
         hc_ground_colour(rgb, terrain, &glance->hit, normal, footprint);
+        hc_details_colour(rgb, terrain, &glance->hit, glance->left);
     }
 }
 

@@ -15,7 +15,8 @@ static const double EXAGGERATED   = 1000.0;
 static const double FARTHEST      = 1e12;
 static const double SLIP_EXACT    = 1.0 / 64.0; /* of the distance between samples */
 static const double SLIP_OTHERS   = 0.5;
-static const double HAZE_DISTANCE = 2.2; /* of the longer side */
+static const double SLIP_DETAIL   = 1.0 / 16.0; /* of a texel */
+static const double HAZE_DISTANCE = 2.2;        /* of the longer side */
 
 /* ---- checks -------------------------------------------------------------------------------- */
 
@@ -184,6 +185,11 @@ static void resolve_light(hc_terrain *terrain)
                                ? SLIP_EXACT * spaced
                                : SLIP_OTHERS * spaced + terrain->placement.scale_z / 64.0;
     terrain->slack       = 0.25 * spaced;
+    if (terrain->details.count > 0) { /* they throw shadows of their own, and are missed */
+        terrain->shadow_slip = fmin(terrain->shadow_slip, fmax(SLIP_DETAIL * terrain->details.texel,
+                                                               hc_terrain_body_slip(terrain)));
+        terrain->slack       = fmin(terrain->slack, terrain->details.texel);
+    }
 }
 
 hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
@@ -206,6 +212,7 @@ hc_result hc_site_set(hc_terrain *terrain, const hc_terrain_scene *scene,
     resolve_heights(&terrain->scene);
     resolve_spacing(&terrain->scene);
     place(terrain);
+    CHECK(hc_details_set(terrain, log));
     resolve_light(terrain);
     return HC_OK;
 }

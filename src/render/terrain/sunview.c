@@ -91,11 +91,15 @@ static void cast_row(void *context, int row, int worker)
     }
     hc_trace_nearest_many(j->terrain->tracer, hits, rays, side);
     for (size_t i = 0; i < side; i++) {
-        hc_glance glance = { rays[i], hits[i], { .t = INFINITY } };
+        hc_glance glance = { rays[i], hits[i], { .t = INFINITY }, 0.0 };
+        if (j->terrain->details.count > 0) { /* all of them, however far the eye is */
+            (void)hc_details_dig(&glance.hit, j->terrain, j->terrain->tracer, &rays[i],
+                                 j->terrain->scene.detail_method, 1.0);
+        }
         if (j->terrain->bodies != NULL) {
             hc_terrain_find_body(&glance, j->terrain);
         }
-        const double depth                   = fmin((double)hits[i].t, glance.body.t);
+        const double depth                   = fmin((double)glance.hit.t, glance.body.t);
         view->depths[(size_t)row * side + i] = fminf((float)depth, HC_SUNVIEW_FAR);
     }
 }

@@ -7,6 +7,7 @@
 #include "../eye.h"
 #include "../sums.h"
 #include "bodies.h"
+#include "detail.h"
 #include "sunview.h"
 
 struct hc_terrain {
@@ -21,6 +22,7 @@ struct hc_terrain {
     struct hc_terrain_gl *gl;          /* NULL: the CPU draws                            */
     double                sun[3];      /* unit                                           */
     hc_sunview            sunview;     /* side 0: shadows are cast */
+    hc_details            details;
     double shadow_slip; /* a shadow's cause lies at least so far before the lit point */
     double slack;       /* hits farther from the exact ones are wrong         */
 };
@@ -34,7 +36,11 @@ typedef struct hc_glance {
     hc_ray      ray; /* direction of unit length */
     hc_hit      hit;
     hc_body_hit body; /* t is INFINITY unless it is nearer than the ground */
+    double      left; /* how much of details there is */
 } hc_glance;
+
+/* From the ground to the detail in it, if there is one. */
+void hc_terrain_dig(hc_glance *glance, const hc_terrain *terrain);
 
 /* Find the object before the ground, if there is one. */
 void hc_terrain_find_body(hc_glance *glance, const hc_terrain *terrain);

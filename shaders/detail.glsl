@@ -1,0 +1,499 @@
+/* detail.glsl: small height maps that tile, cut into a height field by the shares of a mask.
+ * Stands behind heightcast.glsl, and finds with its hc_nearest where a ray comes to the field;
+ * terrain.frag shows how to use it. Functions are named as in src/render/terrain/dig.c and
+ * detail.c; docs/algorithms.md, section 22.9, has the formulas.
+ *
+ *     float left = 1.0;
+ *     hc_hit hit = hc_nearest_detail(origin, direction, 1e9, left);
+ *
+ * Needs an HC_METHOD with patches (not HC_QDM), and a field that does not wrap. By steps instead of
+ * safely: #define HC_DETAIL_STEPS */
+
+#define HC_GRIDS 5
+#define HC_GROUND 4 /* grids 0 .. are those of details */
+
+/* ---- what you set ---------------------------------------------------------------------------- */
+
+/* Colour in rgb, height in a; all details beside each other, their upper edges at the top. */
+uniform sampler2D hc_details;
+uniform int       hc_detail_count;
+uniform int       hc_detail_first[4];   /* column of its first texel */
+uniform vec2      hc_detail_rate[4];    /* texels per texture unit of the field */
+uniform ivec2     hc_detail_size[4];
+uniform float     hc_detail_cut[4];     /* depth, in the field's heights */
+uniform vec3      hc_detail_mean[4];    /* of its colours */
+uniform bool      hc_detail_colours[4]; /* whether it has some */
+uniform sampler2D hc_mask;              /* a texel per sample: shares of details */
+uniform bool      hc_masked;            /* else each has the same share */
+uniform int       hc_detail_steps;
+uniform bool      hc_detail_flat;       /* facets and nearest texels */
+uniform float     hc_world;             /* heights per world unit */
+uniform vec2      hc_detail_fade;       /* distances at which they begin to sink, and are gone */
+
+#define HC_BISECTIONS 8
+#define HC_LEAST_FALL (1.0 / 16.0)
+#define HC_EMERGED (1.0 / 1048576.0)
+
+/* ---- the first root -------------------------------------------------------------------------- */
+
+#define HC_LEVELS 14
+
+/* Least x in 0 .. reach where a + b.x x + b.y x^2 + b.z x^3 + b.w x^4 is 0 or less; HC_MISS: none.
+ * By Bernstein coefficients, whose least bounds the polynomial; pieces that they do not clear are
+ * halved, from the left. */
+float hc_quartic_first(float a, vec4 b, float reach)
+{
+    if (a <= 0.0) {
+        return 0.0;
+    }
+    int piece = 0; /* of 2^level */
+    int level = 0;
+    b *= reach * vec4(1.0, reach, reach * reach, reach * reach * reach);
+    while (piece >> level == 0) {
+        float h  = 1.0 / float(1 << level);
+        float x  = float(piece) * h;
+        float a0 = a + x * (b.x + x * (b.y + x * (b.z + x * b.w)));
+        float a1 = h * (b.x + x * (2.0 * b.y + x * (3.0 * b.z + x * 4.0 * b.w)));
+        float a2 = h * h * (b.y + x * (3.0 * b.z + x * 6.0 * b.w));
+        float a3 = h * h * h * (b.z + x * 4.0 * b.w);
+        float a4 = h * h * h * h * b.w;
+        float least = min(min(a0, a0 + a1 / 4.0),
+                          min(a0 + a1 / 2.0 + a2 / 6.0, a0 + 0.75 * a1 + a2 / 2.0 + a3 / 4.0));
+        if (min(least, a0 + a1 + a2 + a3 + a4) > 0.0) {
+            piece++;
+            while (level > 0 && (piece & 1) == 0) {
+                piece >>= 1;
+                level--;
+            }
+        } else if (level == HC_LEVELS) {
+            return reach * x;
+        } else {
+            piece <<= 1;
+            level++;
+        }
+    }
+    return HC_MISS;
+}
+
+/* ---- patches --------------------------------------------------------------------------------- */
+
+vec4 hc_detail_texel(int detail, ivec2 texel)
+{
+    ivec2 size  = hc_detail_size[detail];
+    ivec2 index = texel - size * ivec2(floor(vec2(texel) / vec2(size)));
+    index += size * ivec2(lessThan(index, ivec2(0))); /* where the quotient was rounded */
+    index -= size * ivec2(greaterThanEqual(index, size));
+    hc_fetch_count += 1;
+    return texelFetch(hc_details, index + ivec2(hc_detail_first[detail], 0), 0);
+}
+
+hc_patch hc_through(vec4 h)
+{
+    return hc_patch(h.x, h.yz - h.x, h.w - h.y - h.z + h.x);
+}
+
+hc_patch hc_mask_patch(int detail, ivec2 cell)
+{
+    if (!hc_masked) {
+        return hc_patch(1.0 / float(hc_detail_count), vec2(0.0), 0.0);
+    }
+    ivec2 a = clamp(cell, ivec2(0), hc_size - 1);
+    ivec2 b = clamp(cell + 1, ivec2(0), hc_size - 1);
+    hc_fetch_count += 4;
+    return hc_through(vec4(texelFetch(hc_mask, a, 0)[detail],
+                           texelFetch(hc_mask, ivec2(b.x, a.y), 0)[detail],
+                           texelFetch(hc_mask, ivec2(a.x, b.y), 0)[detail],
+                           texelFetch(hc_mask, b, 0)[detail]));
+}
+
+hc_patch hc_detail_patch(int detail, ivec2 cell)
+{
+    return hc_through(vec4(hc_detail_texel(detail, cell).a,
+                           hc_detail_texel(detail, cell + ivec2(1, 0)).a,
+                           hc_detail_texel(detail, cell + ivec2(0, 1)).a,
+                           hc_detail_texel(detail, cell + 1).a));
+}
+
+float hc_patch_at(hc_patch patch_, vec2 place)
+{
+    return patch_.base + dot(place, patch_.slope) + place.x * place.y * patch_.twist;
+}
+
+/* What is left of details at a distance from the eye: 1 .. 0. */
+float hc_details_left(float distance_)
+{
+    return 1.0 - smoothstep(hc_detail_fade.x, hc_detail_fade.y, distance_);
+}
+
+/* ---- grids ----------------------------------------------------------------------------------- */
+
+/* A ray in the cells of a grid, r after the hit of the ground. */
+struct hc_grid {
+    vec2  place, along;
+    ivec2 cell;
+    bool  used;
+};
+
+vec2 hc_grid_walls(hc_grid g)
+{
+    vec2 next = vec2(g.cell) + vec2(greaterThan(g.along, vec2(0.0)));
+    return vec2(hc_reaches(g.place.x, g.along.x, next.x), hc_reaches(g.place.y, g.along.y, next.y));
+}
+
+void hc_grid_enter(inout hc_grid g, float r)
+{
+    vec2 place = g.place + r * g.along;
+    g.cell.x   = int(g.along.x < 0.0 ? ceil(place.x) - 1.0 : floor(place.x));
+    g.cell.y   = int(g.along.y < 0.0 ? ceil(place.y) - 1.0 : floor(place.y));
+}
+
+bool hc_grid_cross(inout hc_grid g, float r)
+{
+    vec2  walls   = hc_grid_walls(g);
+    bvec2 crossed = lessThanEqual(walls, vec2(r));
+    g.cell += ivec2(crossed) * (2 * ivec2(greaterThan(g.along, vec2(0.0))) - 1);
+    return any(crossed);
+}
+
+struct hc_walk {
+    float    left, z, rise, leave;
+    hc_grid  grids[HC_GRIDS];
+    hc_patch shares[4]; /* of the mask, in this cell of the ground */
+    int      steps;
+    bool     emerged;
+};
+
+hc_walk hc_w; /* not handed on: copies of arrays are what compilers are slow with */
+
+void hc_choose_details(float r)
+{
+    for (int i = 0; i < hc_detail_count; i++) {
+        hc_patch mask = hc_mask_patch(i, hc_w.grids[HC_GROUND].cell);
+        bool     none = mask.base == 0.0 && mask.slope == vec2(0.0) && mask.twist == 0.0;
+        if (!none && !hc_w.grids[i].used) {
+            hc_grid_enter(hc_w.grids[i], r);
+        }
+        hc_w.shares[i]     = mask;
+        hc_w.grids[i].used = !none;
+    }
+}
+
+/* ---- rays ------------------------------------------------------------------------------------ */
+
+/* place: in texture space, where the ground was hit; r counts from there. */
+void hc_walk_from(vec3 place, vec3 along, float reach)
+{
+    hc_grid g     = hc_grid(place.xy * hc_steps - hc_zero, along.xy * hc_steps, ivec2(0), true);
+    vec2    end   = vec2(along.x > 0.0 ? hc_high().x : hc_low().x,
+                         along.y > 0.0 ? hc_high().y : hc_low().y);
+    float deep       = 1.0;
+    for (int i = 0; i < hc_detail_count; i++) {
+        deep += hc_detail_cut[i];
+    }
+    /* Above all ground or below all details there is nothing farther on, though an upright ray
+     * comes to no wall. */
+    float layer      = hc_reaches(place.z, along.z, along.z > 0.0 ? 2.0 : -deep);
+    hc_w.left        = 0.0;
+    hc_w.z           = place.z;
+    hc_w.rise        = along.z;
+    hc_w.leave       = min(min(reach, layer), min(hc_reaches(g.place.x, g.along.x, end.x),
+                                   hc_reaches(g.place.y, g.along.y, end.y)));
+    hc_w.steps       = 0;
+    hc_w.emerged     = false;
+    for (int i = 0; i < 4; i++) {
+        hc_w.shares[i]      = hc_patch(0.0, vec2(0.0), 0.0);
+        hc_w.grids[i]       = hc_grid(vec2(0.0), vec2(0.0), ivec2(0), false);
+    }
+    for (int i = 0; i < hc_detail_count; i++) { /* whole tiles are taken out, for precision */
+        vec2 tiles = hc_detail_rate[i] / vec2(hc_detail_size[i]) * place.xy;
+        hc_w.grids[i].place = (tiles - floor(tiles)) * vec2(hc_detail_size[i]) - 0.5;
+        hc_w.grids[i].along = hc_detail_rate[i] * along.xy;
+    }
+    hc_w.grids[HC_GROUND] = g;
+}
+
+void hc_go_in(float r)
+{
+    hc_grid_enter(hc_w.grids[HC_GROUND], r);
+    for (int i = 0; i < HC_GROUND; i++) {
+        hc_w.grids[i].used = false;
+    }
+    hc_choose_details(r);
+}
+
+/* ---- gaps ------------------------------------------------------------------------------------ */
+
+/* A patch along the ray, from r: a + b x + c x^2. */
+vec3 hc_along_ray(hc_patch patch_, hc_grid g, float r)
+{
+    vec2 at = g.place + r * g.along - vec2(g.cell);
+    return vec3(hc_patch_at(patch_, at), dot(g.along, patch_.slope + at.yx * patch_.twist),
+                g.along.x * g.along.y * patch_.twist);
+}
+
+vec3 hc_ground_gap(float r)
+{
+    hc_patch patch_ = hc_patch_of(hc_w.grids[HC_GROUND].cell);
+    vec3     ground = hc_along_ray(patch_, hc_w.grids[HC_GROUND], r);
+    return vec3(hc_w.z + r * hc_w.rise, hc_w.rise, 0.0) - ground;
+}
+
+/* Over what is left of it: x^1 and above; *zero: x^0. */
+vec4 hc_detail_gap(float r, out float zero)
+{
+    vec3 ground = hc_ground_gap(r);
+    vec4 rest   = vec4(ground.yz, 0.0, 0.0);
+    zero        = ground.x;
+    for (int i = 0; i < hc_detail_count; i++) {
+        if (!hc_w.grids[i].used) {
+            continue;
+        }
+        float cut   = hc_w.left * hc_detail_cut[i];
+        vec3  share = cut * hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], r);
+        vec3  low   = hc_along_ray(hc_detail_patch(i, hc_w.grids[i].cell), hc_w.grids[i], r);
+        low.x -= 1.0;
+        zero -= share.x * low.x;
+        rest -= vec4(share.x * low.y + share.y * low.x,
+                     share.x * low.z + share.y * low.y + share.z * low.x,
+                     share.y * low.z + share.z * low.y, share.z * low.z);
+    }
+    return rest;
+}
+
+#ifndef HC_DETAIL_STEPS
+
+/* ---- safe ------------------------------------------------------------------------------------ */
+
+/* From r to the first contact. HC_MISS: to where it has come out of the ground, or to the end. */
+float hc_walk_on(inout float r)
+{
+    hc_w.emerged = false;
+    for (int most = 0; most < 65536; most++) {
+        float zero;
+        float end = hc_w.leave;
+        for (int i = 0; i < HC_GRIDS; i++) {
+            vec2 walls = hc_grid_walls(hc_w.grids[i]);
+            end        = hc_w.grids[i].used ? min(end, min(walls.x, walls.y)) : end;
+        }
+        end = max(end, r);
+        hc_w.steps++;
+        vec4  rest = hc_detail_gap(r, zero);
+        float met  = hc_quartic_first(zero, rest, end - r);
+        if (met < HC_MISS || end >= hc_w.leave) {
+            return met < HC_MISS ? r + met : HC_MISS;
+        }
+        r = end;
+        for (int i = 0; i < HC_GROUND; i++) {
+            if (hc_w.grids[i].used) {
+                hc_grid_cross(hc_w.grids[i], r);
+            }
+        }
+        if (hc_grid_cross(hc_w.grids[HC_GROUND], r)) {
+            hc_choose_details(r);
+        }
+        if (hc_ground_gap(r).x > HC_EMERGED) {
+            hc_w.emerged = true;
+            return HC_MISS;
+        }
+    }
+    return HC_MISS;
+}
+
+/* hc_nearest, on to the detail, and to where the ray comes to the ground next. along: of unit
+ * length in the world. left: how much of details this ray sees; below 0: as the distance of where
+ * it comes to the ground says, and then it is what it was there. Where the detail is met at once
+ * the ground's own hit stands, a wall's, too. */
+hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
+{
+    hc_hit hit;
+    bool   given = left >= 0.0;
+    float  from  = 0.0;
+    float  r     = 0.0;
+    int    steps = 0;
+    for (int times = 0; times < 256; times++) {
+        hc_hit next = hc_nearest(origin + from * along, along, t_max - from);
+        steps += next.steps;
+        if (times == 0 || next.t > 0.0) { /* else rounded: it is in the ground still */
+            hit   = next;
+            hit.t = next.t < HC_MISS ? from + next.t : HC_MISS;
+            left  = given ? left : hc_details_left(hit.t);
+            if (!(hit.t < HC_MISS) || left <= 0.0) {
+                break;
+            }
+            hc_walk_from(hit.place, along, t_max - hit.t);
+            hc_w.left = left;
+            r         = 0.0;
+            hc_go_in(r);
+        }
+        int   before = hc_w.steps;
+        float met    = hc_walk_on(r);
+        steps += hc_w.steps - before;
+        if (!hc_w.emerged) {
+            hit.flags = met > 0.0 ? 0 : hit.flags;
+            hit.place += met < HC_MISS ? met * along : vec3(0.0);
+            hit.t = met < HC_MISS ? hit.t + met : HC_MISS;
+            break;
+        }
+        from = hit.t + r;
+    }
+    hit.steps = steps;
+    return hit;
+}
+
+#else
+
+/* ---- steps ----------------------------------------------------------------------------------- */
+
+float hc_gap_at(float r)
+{
+    float zero;
+    hc_go_in(r);
+    hc_detail_gap(r, zero);
+    hc_w.steps++;
+    return zero;
+}
+
+/* How far it is through the layer that details are cut from, as if the ground went on as it lies
+ * there, and a quarter more. 0: there are no details. */
+float hc_way_through(void)
+{
+    float deep = 0.0;
+    for (int i = 0; i < hc_detail_count; i++) {
+        vec3 share = hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], 0.0);
+        deep += hc_w.left * hc_detail_cut[i] * share.x;
+    }
+    vec3 gap = hc_ground_gap(0.0);
+    return deep > 0.0
+               ? 1.25 * (deep + max(gap.x, 0.0)) / max(-gap.y, HC_LEAST_FALL * hc_world)
+               : 0.0;
+}
+
+/* hc_nearest, then equal steps and bisection, as in the RaycastTerrain sample; names as above.
+ * HC_UNCONVERGED: the steps came to nothing, and the ground's own hit stands. */
+hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
+{
+    hc_hit hit = hc_nearest(origin, along, t_max);
+    left       = left >= 0.0 ? left : hc_details_left(hit.t);
+    if (!(hit.t < HC_MISS) || left <= 0.0) {
+        return hit;
+    }
+    hc_walk_from(hit.place, along, t_max - hit.t);
+    hc_w.left  = left;
+    float way  = 0.0;
+    float gap  = 1.0;                /* at the hit itself */
+    vec2  ends = vec2(0.0, HC_MISS); /* above and below */
+    for (int i = 0; i <= hc_detail_steps + HC_BISECTIONS && gap > 0.0; i++) {
+        bool  halves = i > hc_detail_steps;
+        bool  found  = ends.y < HC_MISS;
+        float r      = halves ? 0.5 * (ends.x + ends.y) : way * float(i) / float(hc_detail_steps);
+        if (halves && !found) {
+            break;
+        }
+        if (!halves && (found || r > hc_w.leave)) {
+            i = hc_detail_steps; /* bisections come next */
+            continue;
+        }
+        float here = hc_gap_at(r);
+        if (i == 0) {
+            way = hc_way_through();
+            gap = way > 0.0 ? here : 0.0;
+        } else {
+            ends = here > 0.0 ? vec2(r, ends.y) : vec2(ends.x, r);
+        }
+    }
+    if (ends.y < HC_MISS) {
+        hit.t += ends.y;
+        hit.place += ends.y * along;
+        hit.flags = 0;
+    } else if (gap > 0.0) {
+        hit.flags |= HC_UNCONVERGED;
+    }
+    hit.steps += hc_w.steps;
+    return hit;
+}
+
+#endif
+
+/* ---- at a hit -------------------------------------------------------------------------------- */
+
+/* In cells of the mask, and of a detail. */
+vec2 hc_on_ground(vec2 uv)
+{
+    return uv * hc_steps - hc_zero;
+}
+
+vec2 hc_on_detail(int detail, vec2 uv)
+{
+    vec2 tiles = hc_detail_rate[detail] / vec2(hc_detail_size[detail]) * uv;
+    return (tiles - floor(tiles)) * vec2(hc_detail_size[detail]) - 0.5;
+}
+
+/* Heights per texel: of the patch, or of central differences between its corners. */
+vec2 hc_detail_slopes(int detail, vec2 at)
+{
+    ivec2 cell = ivec2(floor(at));
+    vec2  f    = at - vec2(cell);
+    vec2  sum  = vec2(0.0);
+    if (hc_detail_flat) {
+        hc_patch patch_ = hc_detail_patch(detail, cell);
+        return patch_.slope + f.yx * patch_.twist;
+    }
+    for (int i = 0; i < 4; i++) {
+        ivec2 texel  = cell + ivec2(i & 1, i >> 1);
+        vec2  weight = mix(1.0 - f, f, vec2(i & 1, i >> 1));
+        sum += 0.5 * weight.x * weight.y
+               * vec2(hc_detail_texel(detail, texel + ivec2(1, 0)).a
+                          - hc_detail_texel(detail, texel - ivec2(1, 0)).a,
+                      hc_detail_texel(detail, texel + ivec2(0, 1)).a
+                          - hc_detail_texel(detail, texel - ivec2(0, 1)).a);
+    }
+    return sum;
+}
+
+/* To be added to the slopes of the ground, heights per texture unit. */
+vec2 hc_details_slopes(vec2 uv, float left)
+{
+    vec2  ground = hc_on_ground(uv);
+    ivec2 cell   = ivec2(floor(ground));
+    vec2  f      = ground - vec2(cell);
+    vec2  sum    = vec2(0.0);
+    for (int i = 0; i < hc_detail_count; i++) {
+        vec2     at    = hc_on_detail(i, uv);
+        hc_patch mask  = hc_mask_patch(i, cell);
+        float    share = hc_patch_at(mask, f);
+        float    low   = 1.0 - hc_patch_at(hc_detail_patch(i, ivec2(floor(at))), fract(at));
+        sum += left * hc_detail_cut[i]
+               * (share * hc_detail_slopes(i, at) * hc_detail_rate[i]
+                  - low * (mask.slope + f.yx * mask.twist) * hc_steps);
+    }
+    return sum;
+}
+
+vec3 hc_detail_colour(int detail, vec2 at)
+{
+    ivec2 cell = ivec2(floor(at));
+    vec2  f    = hc_detail_flat ? floor(at - vec2(cell) + 0.5) : at - vec2(cell);
+    vec3  top  = mix(hc_detail_texel(detail, cell).rgb,
+                     hc_detail_texel(detail, cell + ivec2(1, 0)).rgb, f.x);
+    vec3  low  = mix(hc_detail_texel(detail, cell + ivec2(0, 1)).rgb,
+                     hc_detail_texel(detail, cell + 1).rgb, f.x);
+    return mix(top, low, f.y);
+}
+
+/* Laid over that of the ground. Shares that come to more than 1 are as good as 1. */
+vec3 hc_details_colour(vec3 colour, vec2 uv, float left)
+{
+    vec2  ground = hc_on_ground(uv);
+    ivec2 cell   = ivec2(floor(ground));
+    vec3  sum    = vec3(0.0);
+    float shares = 0.0;
+    for (int i = 0; i < hc_detail_count; i++) {
+        if (hc_detail_colours[i]) {
+            float share = hc_patch_at(hc_mask_patch(i, cell), ground - vec2(cell));
+            vec3  own   = hc_detail_colour(i, hc_on_detail(i, uv));
+            sum += share * mix(hc_detail_mean[i], own, left);
+            shares += share;
+        }
+    }
+    return colour * (1.0 - min(shares, 1.0)) + sum / max(shares, 1.0);
+}

@@ -1,0 +1,16 @@
+/* Details of a terrain, for detail.glsl. */
+#ifndef HC_RENDER_GL_DETAILS_H
+#define HC_RENDER_GL_DETAILS_H
+
+#include "../terrain/terrain.h"
+
+/* Textures: of the mask, and of all maps beside each other. */
+enum { HC_DETAIL_UNITS = 2 };
+
+/* Load them, to units from `unit` on. */
+hc_result hc_details_upload(unsigned textures[HC_DETAIL_UNITS], int unit, const hc_terrain *terrain,
+                            hc_log *log);
+/* Of the program in use. */
+void hc_details_set_uniforms(unsigned program, int unit, const hc_terrain *terrain);
+
+#endif

@@ -1,0 +1,151 @@
+/* shaders/detail.glsl against the CPU: details by both ways on top of several methods, from
+ * everywhere, shadows and all; skipped where there is no OpenGL. */
+#include "shots.h"
+
+#include <heightcast/terrain.h>
+
+enum { SIDE = 40, MAP = 16, TEXELS = MAP * MAP };
+
+static agree_maps maps;
+static agree_shot cpu, gl;
+static float      first[TEXELS], second[TEXELS], colour[TEXELS * 3];
+static uint8_t    mask[SIDE * SIDE * 4];
+static hc_detail  details[2];
+
+static int prepare(void **state)
+{
+    uint64_t seed = 4;
+    (void)state;
+    bool good = agree_maps_bake(&maps, "fbm", SIDE, 7, HC_WRAP_NONE)
+                && hc_synth(first, MAP, MAP, "cobbles", 1, NULL) == HC_OK
+                && hc_synth(second, MAP, MAP, "fbm", 2, NULL) == HC_OK;
+    for (int i = 0; i < SIDE * SIDE * 4; i++) {
+        mask[i] = (uint8_t)(i / SIDE / 4 % 16 < 4 ? 0 : agree_random(&seed) % 256);
+    }
+    for (int i = 0; i < TEXELS * 3; i++) {
+        colour[i] = (float)(i * 7 % 11) / 11.0F;
+    }
+    details[0] = (hc_detail){ .heights = first,
+                              .colour  = colour,
+                              .width   = MAP,
+                              .height  = MAP,
+                              .tile    = 190.0,
+                              .depth   = 16.0 };
+    details[1] =
+        (hc_detail){ .heights = second, .width = MAP, .height = MAP, .tile = 310.0, .depth = 40.0 };
+    return good ? 0 : -1;
+}
+
+static hc_terrain_scene scene_of(hc_trace_method method, hc_detail_method way)
+{
+    hc_terrain_scene scene = { .field         = maps.field,
+                               .spacing       = { 30.0, 40.0 },
+                               .low           = 500.0,
+                               .high          = 750.0,
+                               .details       = details,
+                               .detail_count  = 2,
+                               .mask          = mask,
+                               .mask_width    = SIDE,
+                               .mask_height   = SIDE,
+                               .detail_method = way,
+                               .detail_fade   = { 500.0, 2500.0 } };
+    agree_maps_choose(&scene.trace, &maps, method);
+    return scene;
+}
+
+static hc_terrain *make(const hc_terrain_scene *scene, hc_view view, hc_backend backend)
+{
+    const hc_render_options options = { .view = view, .backend = backend };
+    hc_log                  log     = { .text = "" };
+    hc_terrain             *terrain = NULL;
+    agree_skip_without_gl(hc_terrain_create(&terrain, scene, &options, &log), backend, &log);
+    return terrain;
+}
+
+static void draw(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera)
+{
+    hc_log log = { .text = "" };
+    agree_shot_open(shot);
+    agree_shot_close(shot, hc_terrain_draw(&shot->picture, terrain, camera, &log), HC_BACKEND_CPU,
+                     &log);
+}
+
+static void compare(const hc_terrain_scene *scene, hc_view view)
+{
+    hc_terrain *by_gl  = make(scene, view, HC_BACKEND_GL);
+    hc_terrain *by_cpu = make(scene, view, HC_BACKEND_CPU);
+    for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.3);
+        draw(&cpu, by_cpu, &camera);
+        draw(&gl, by_gl, &camera);
+        const int odd = agree_shots_odd(&cpu, &gl);
+        if (odd > SHOT_ODD_MAX) {
+            fail_msg("%s, %s, camera %d: %d pixels differ",
+                     hc_trace_method_name(scene->trace.method),
+                     hc_detail_method_name(scene->detail_method), tour, odd);
+        }
+        assert_true(cpu.picture.figures.hits > 500);
+        if (view == HC_VIEW_MISSED && scene->detail_method == HC_DETAIL_SAFE) {
+            assert_true(cpu.picture.figures.lost + cpu.picture.figures.made_up == 0);
+            assert_true(gl.picture.figures.lost + gl.picture.figures.made_up == 0);
+        }
+    }
+    hc_terrain_destroy(by_cpu);
+    hc_terrain_destroy(by_gl);
+}
+
+static void safely(void **state)
+{
+    (void)state;
+    const hc_trace_method methods[] = { HC_TRACE_SAFE, HC_TRACE_MAXMIP, HC_TRACE_CONE_LOOP };
+    for (int i = 0; i < 3; i++) {
+        const hc_terrain_scene scene = scene_of(methods[i], HC_DETAIL_SAFE);
+        compare(&scene, HC_VIEW_SHADED);
+    }
+    const hc_terrain_scene scene = scene_of(HC_TRACE_MAXMIP, HC_DETAIL_SAFE);
+    compare(&scene, HC_VIEW_NORMAL);
+    compare(&scene, HC_VIEW_MISSED);
+}
+
+static void by_steps(void **state)
+{
+    (void)state;
+    hc_terrain_scene scene = scene_of(HC_TRACE_CONE_LOOP, HC_DETAIL_STEPS);
+    compare(&scene, HC_VIEW_SHADED); /* the sample */
+    scene              = scene_of(HC_TRACE_MAXMIP, HC_DETAIL_STEPS);
+    scene.detail_steps = 12;
+    scene.blocky       = true;
+    scene.mask         = NULL;
+    compare(&scene, HC_VIEW_SHADED);
+    compare(&scene, HC_VIEW_MISSED);
+}
+
+/* Among objects, under a map of shadows, on the posts of a grid. */
+static void among_other_things(void **state)
+{
+    hc_mesh *mesh = NULL;
+    (void)state;
+    assert_int_equal(hc_solid_create(&mesh, HC_SOLID_HOUSE, NULL), HC_OK);
+    const hc_object object = {
+        .mesh = mesh, .place = { 600.0, -700.0, 0.0 }, .grounded = true, .size = 250.0
+    };
+    hc_terrain_scene scene   = scene_of(HC_TRACE_MAXMIP, HC_DETAIL_SAFE);
+    scene.field.registration = HC_GRID;
+    scene.objects            = &object;
+    scene.object_count       = 1;
+    compare(&scene, HC_VIEW_SHADED);
+    scene.shadow_map = 300;
+    compare(&scene, HC_VIEW_SHADED);
+    hc_mesh_destroy(mesh);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(safely),
+        cmocka_unit_test(by_steps),
+        cmocka_unit_test(among_other_things),
+    };
+    return cmocka_run_group_tests(tests, prepare, NULL);
+}
