@@ -336,10 +336,10 @@ void search_anew(ivec2 here, float height, steepest best)
 /* level 0: it is done. */
 void search_on(int place)
 {
-    search_left left = waiting[place];
-    if (place >= u_waiting || left.levels == 0u) {
+    if (place >= u_waiting || waiting[place].levels == 0u) {
         return;
     }
+    search_left left = waiting[place];
     ivec2 here = ivec2(left.texel & 0xffffu, left.texel >> 16);
     walk  w    = walk(ivec2(left.block & 0xffffu, left.block >> 16), int(left.levels & 0xffu),
                       int(left.levels >> 8), left.low, left.high);

@@ -62,7 +62,7 @@ static void dispatch(unsigned program, const int first[2], const int end[2], uns
     glDispatchCompute(across, down, 1);
     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT
                     | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_ATOMIC_COUNTER_BARRIER_BIT
-                    | GL_BUFFER_UPDATE_BARRIER_BIT);
+                    | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
 /* One group, all of it beyond the last texel. */

@@ -66,6 +66,21 @@ class Animate(Case):
         self.assertIn("the CPU bakes and draws", figures["warnings"][0])
         self.assertEqual(pictures, on_cpu)
 
+    def test_the_cpu_goes_on_where_opengl_is_lost(self):
+        faults = os.environ.get("HEIGHTCAST_GL_FAULTS")
+        if faults is None:
+            self.skipTest("this build has no way to make OpenGL fail")
+        _, on_cpu = self.frames("erode")
+        for method in ["safe", "maxmip"]:
+            figures, pictures = self.frames(
+                "erode", "--backend", "auto", "--method", method,
+                env={**os.environ, "LD_PRELOAD": faults, "HC_GL_FAULT": "lost"})
+            self.assertEqual(figures["backend"], "cpu")
+            if "lost its context" not in figures["warnings"][0]:
+                self.skipTest(figures["warnings"][0])
+            if method == "safe":
+                self.assertEqual(pictures, on_cpu)
+
     def test_the_cpu_goes_on_where_a_picture_is_too_wide_for_opengl(self):
         wide = ["--size", "20000x1"]
         _, on_cpu = self.frames("erode", *wide, count=2)

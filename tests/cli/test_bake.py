@@ -14,7 +14,8 @@ import termios
 import time
 import unittest
 
-from program import (BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE, Case, main)
+from program import (BAD_FILE, DONE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE, Case,
+                     main)
 
 
 class Defaults(Case):
@@ -222,6 +223,30 @@ class Contradictions(Case):
                     self.skipTest("this driver does not listen")
                 self.assertIn("; the CPU bakes", figures["warnings"][0])
                 self.assertEqual(self.read_npy("gl.npy"), self.read_npy("cpu.npy"))
+
+    def test_opengl_that_fails_on_the_way(self):
+        faults = os.environ.get("HEIGHTCAST_GL_FAULTS")
+        if faults is None:
+            self.skipTest("this build has no way to make OpenGL fail")
+        figures = self.json("bake", self.hills(), "cpu.npy", "--backend", "gl")
+        if figures["backend"] == "cpu":
+            self.skipTest(figures["warnings"][0])
+        for fault, says, code in [("lost", "the driver has lost its context, for what others drew",
+                                   INPUT_OUTPUT),
+                                  ("memory", "out of memory for graphics", MEMORY),
+                                  ("compile", "does not compile", DONE)]:
+            with self.subTest(fault=fault):
+                environment = {**os.environ, "LD_PRELOAD": faults, "HC_GL_FAULT": fault}
+                done = self.run_program("bake", "hills.pgm", "gl.npy", "--backend", "gl", code=code,
+                                        env=environment)
+                self.assertIn(says, done.stderr.decode())
+                self.assertEqual(self.path("gl.npy").exists(), code == DONE)
+                figures = self.json("bake", "hills.pgm", "auto.npy", "--overwrite", "--backend",
+                                    "auto", env=environment)
+                self.assertEqual(figures["backend"], "cpu")
+                self.assertIn(says, figures["warnings"][0])
+                self.assertIn("; the CPU bakes", figures["warnings"][0])
+                self.assertEqual(self.read_npy("auto.npy"), self.read_npy("cpu.npy"))
 
     def test_opengl_has_nothing_to_do(self):
         for options, says in [(["--map", "gradient"], "--map gradient in codes"),
