@@ -207,14 +207,16 @@ static hc_result measure_method(job *j, const char *name)
 
 static hc_result measure_field(void *context, const char *name, const hc_field *field)
 {
-    static const char *const usual[] = { "fast", "maxmip", "safe", "cone-loop", "mesh", "lod" };
+    static const char *const usual[] = {
+        "fast", "maxmip", "pdm", "safe", "cone-loop", "mesh", "lod"
+    };
     /* fast is the CPU's alone, polygons are GL's. */
     job                 *j      = context;
     const hc_bench_plan *plan   = &j->options->plan;
     const bool           gl     = j->options->backend == HC_BACKEND_GL;
     const bool           all    = plan->method_count == 0;
     const char *const   *names  = !all ? plan->methods : gl ? usual + 1 : usual;
-    const int            count  = !all ? plan->method_count : gl ? 5 : 4;
+    const int            count  = !all ? plan->method_count : gl ? 6 : 5;
     hc_result            result = HC_OK;
     j->name                     = name;
     j->field                    = *field;

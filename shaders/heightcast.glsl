@@ -6,7 +6,7 @@
  *     #define HC_METHOD HC_SAFE     the marcher that hc_nearest uses: HC_SAFE (default), HC_MAXMIP,
  *                                   HC_QDM, HC_PARALLAX, HC_LINEAR, HC_RELIEF, HC_OCCLUSION,
  *                                   HC_CONE_FIXED, HC_CONE_LOOP, HC_CONE_EXACT, HC_RELAXED,
- *                                   HC_ROBUST, HC_QUICK
+ *                                   HC_ROBUST, HC_QUICK, HC_PDM
  *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00,
  * GLSL
  *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
@@ -47,6 +47,7 @@
 #define HC_RELAXED 11
 #define HC_ROBUST 12
 #define HC_QUICK 13
+#define HC_PDM 14
 #ifndef HC_METHOD
 #define HC_METHOD HC_SAFE
 #endif
@@ -66,7 +67,7 @@ uniform sampler2D hc_heights; /* R: samples, row 0 is v = 0 */
 #ifndef HC_DUMMER
 uniform sampler2D hc_ratios; /* of samples, or of cells */
 #endif
-#if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
+#if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM || HC_METHOD == HC_PDM
 /* R, all mips: the highest corner of each cell (qdm: the samples), each level the maximum of the
  * one below it; an odd side's last texel takes the one left over, too. */
 uniform sampler2D hc_bounds;
@@ -81,7 +82,7 @@ uniform bvec2 hc_wraps;
 uniform int   hc_step_count;  /* at most so many steps, in methods that count them */
 uniform int   hc_refinements; /* bisections; -1: one secant, -2: none              */
 
-/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip and qdm), if
+/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip, qdm and pdm), if
  * you care. */
 int hc_fetch_count    = 0;
 int hc_crossing_count = 0;
@@ -354,9 +355,9 @@ hc_found hc_march_safe(hc_path path)
 
 #endif
 
-/* ---- maxmip and qdm: the pyramid of the bounding map ----------------------------------------- */
+/* ---- maxmip, qdm and pdm: the pyramid of the bounding map ------------------------------------ */
 
-#if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
+#if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM || HC_METHOD == HC_PDM
 
 /* The node of a level that a cell is in: its cells low .. high - 1, and its bound. Above single
  * cells the first and the last node of an unwrapped axis have what lies at the border, too. */
@@ -386,6 +387,72 @@ float hc_node(ivec2 cell, int level, out ivec2 low, out ivec2 high)
     hc_fetch_count += 1;
     return texelFetch(hc_bounds, which, level).r;
 }
+
+#endif
+
+#if HC_METHOD == HC_PDM
+
+float hc_in_patch(float root, float reach)
+{
+    return root >= 0.0 && root <= reach ? root : HC_MISS;
+}
+
+/* Equation (1), and the smaller of its roots that is in the patch. */
+float hc_first_root(vec3 gap, float reach)
+{
+    float square = gap.y * gap.y - 4.0 * gap.z * gap.x;
+    if (square < 0.0) {
+        return HC_MISS;
+    }
+    float half_ = -0.5 * (gap.y + (gap.y < 0.0 ? -sqrt(square) : sqrt(square)));
+    float one   = half_ != 0.0 ? gap.x / half_ : HC_MISS;
+    float two   = gap.z != 0.0 ? half_ / gap.z : HC_MISS;
+    return min(hc_in_patch(one, reach), hc_in_patch(two, reach));
+}
+
+/* WSCG 2009, 3 to 5, as printed: what it remembers is a place on the ray and a level. The texel is
+ * looked up a little ahead of the place, and what lies within that little of a corner is passed by. */
+hc_found hc_march_pdm(hc_path path)
+{
+    float s     = path.from;
+    int   level = hc_levels - 1;
+    int   steps = 0;
+    for (int most = 0; most < 65536; most++) {
+        ivec2 low, high;
+        ivec2 cell   = ivec2(floor(hc_at(path, s).xy + sign(path.along.xy) / 1024.0));
+        float bound  = hc_node(cell, level, low, high);
+        vec2  walls  = hc_walls(path, low, high, s);
+        float leave  = min(min(walls.x, walls.y), path.end);
+        bool  inside = hc_at(path, s).z <= bound;
+        steps++;
+        if (!inside && path.along.z < 0.0) {
+            float meets = hc_reaches(path.place.z, path.along.z, bound);
+            inside      = meets < leave;
+            s           = inside ? max(meets, s) : s;
+        }
+        if (inside && level > 0) {
+            level--;
+            continue;
+        }
+        if (inside) {
+            float root = hc_first_root(hc_gap_of(hc_patch_of(cell), path, cell, s), leave - s);
+            if (root < HC_MISS) {
+                return hc_found(s + root, 0, steps);
+            }
+        }
+        if (leave >= path.end) {
+            break;
+        }
+        hc_crossing_count += 1;
+        s     = leave;
+        level = min(level + 1, hc_levels - 1);
+    }
+    return hc_found(HC_MISS, 0, steps);
+}
+
+#endif
+
+#if HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
 
 /* WSCG 2009, 3 to 5: a node whose bound the ray stays above is crossed, and the next one looked
  * for a level higher; else down a level, first to the height of the bound if the ray falls. */
@@ -645,6 +712,8 @@ hc_found hc_march_cones(hc_path path)
 #define hc_march hc_march_safe
 #elif HC_METHOD == HC_MAXMIP || HC_METHOD == HC_QDM
 #define hc_march hc_march_maxmip
+#elif HC_METHOD == HC_PDM
+#define hc_march hc_march_pdm
 #elif HC_METHOD == HC_PARALLAX
 #define hc_march hc_march_parallax
 #elif HC_METHOD == HC_LINEAR

@@ -50,8 +50,8 @@ typedef struct hc_relief {
                                open_sides and threads do not count */
     const struct hc_gpu_map *baked; /* NULL; or field and ratios in place of those above, in
                                textures that are drawn as they are: backend gl, the thread of its
-                               hc_gpu, methods but fast, maxmip and qdm, views but missed and
-                               error */
+                               hc_gpu, methods but fast, maxmip, qdm and pdm, views but
+                               missed and error */
     hc_body                  body;
     hc_edge                  edge;
     float                    depth; /* from hull to core  [> 0]  0: 0.16, cylinder and torus 0.12 */

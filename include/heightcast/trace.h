@@ -40,6 +40,8 @@ extern "C" {
  *                wall of the texel, then secant or bisection                   Mapping 2024
  * quick          cone steps until below or `steps`, then      l2 ratios        2022 (secant,
  *                secant or bisection                                           binary)
+ * pdm            the walk of maxmip as it was printed: rays   nothing          WSCG 2009, 4 and 5
+ *                slip past corners, and between patches
  *
  * fast, safe and maxmip lose no first hit and make none up, within the bound that
  * hc_tracer_tolerance gives. The others are what their papers say, losses included. They march
@@ -59,7 +61,8 @@ typedef enum hc_trace_method {
     HC_TRACE_CONE_EXACT,
     HC_TRACE_RELAXED,
     HC_TRACE_ROBUST,
-    HC_TRACE_QUICK
+    HC_TRACE_QUICK,
+    HC_TRACE_PDM
 } hc_trace_method;
 
 HC_API int         hc_trace_method_count(void);
@@ -128,7 +131,7 @@ HC_API size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *opt
  * t rounded to float. docs/algorithms.md derives both. */
 HC_API void hc_tracer_tolerance(const hc_tracer *tracer, double *rise, double *reach);
 
-/* The pyramid that maxmip and qdm walk, for those who walk it elsewhere, such as in a shader: the
+/* The pyramid that maxmip, pdm and qdm walk, for those who walk it elsewhere, such as in a shader: the
  * highest corner of each cell (qdm and steps: the samples), and above it the maximum of what is
  * below. Lives as long as the tracer; NULL for other methods. */
 HC_API const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer);

@@ -95,7 +95,9 @@ static bool serves(const struct hc_gpu_map *map, hc_trace_method method)
     case HC_NEEDS_CELL_RATIOS: return map->cells && diamond;
     case HC_NEEDS_RATIOS: return plain && !map->relaxed;
     case HC_NEEDS_RELAXED: return plain && map->relaxed;
-    default: return method != HC_TRACE_FAST && method != HC_TRACE_MAXMIP && method != HC_TRACE_QDM;
+    default:
+        return method != HC_TRACE_FAST && method != HC_TRACE_MAXMIP && method != HC_TRACE_QDM
+               && method != HC_TRACE_PDM;
     }
 }
 

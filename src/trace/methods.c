@@ -18,6 +18,7 @@ const hc_trace_method_facts hc_trace_methods[] = {
     { "relaxed", HC_NEEDS_RELAXED, hc_march_relaxed, false, 256, false },
     { "robust", HC_NEEDS_RATIOS, hc_march_robust, false, 256, false },
     { "quick", HC_NEEDS_RATIOS, hc_march_quick, false, 256, false },
+    { "pdm", HC_NEEDS_NOTHING, hc_march_pdm, false, 0, true },
 };
 
 enum { COUNT = sizeof hc_trace_methods / sizeof *hc_trace_methods };

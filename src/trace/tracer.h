@@ -88,7 +88,7 @@ bool hc_trace_path(const hc_tracer *tracer, hc_hit *hit, const hc_ray *ray);
 void hc_bounds_fill(hc_tracer *tracer, float *values);
 
 /* The marches, one file per family. */
-hc_march hc_march_safe, hc_march_maxmip;
+hc_march hc_march_safe, hc_march_maxmip, hc_march_pdm;
 hc_march hc_march_parallax, hc_march_linear, hc_march_relief, hc_march_occlusion;
 hc_march hc_march_cone_fixed, hc_march_cone_loop, hc_march_cone_exact, hc_march_quick;
 hc_march hc_march_relaxed, hc_march_robust;

@@ -189,7 +189,8 @@ class Bench(Case):
         report = self.terrain("--sizes", "32,64", "--csv", "terrain.csv")
         rows = {(row["side"], row["method"]): row for row in report["rows"]}
         self.assertEqual(set(rows), {(side, method) for side in (32, 64)
-                                     for method in ("fast", "maxmip", "safe", "cone-loop")})
+                                     for method in ("fast", "maxmip", "pdm", "safe",
+                                                    "cone-loop")})
         for (side, method), row in rows.items():
             self.assertEqual((row["runs"], row["frames"]), (1, 5))
             self.assertGreater(row["seconds"], 0)
@@ -204,8 +205,8 @@ class Bench(Case):
         self.assertGreater(rows[64, "cone-loop"]["walk"]["lost"]
                            + rows[64, "cone-loop"]["walk"]["made_up"], 0)
         for figure, row in zip(report["figures"], report["rows"]):
-            other = rows[row["side"], "maxmip"]["fly"]["frames_per_second"]
-            self.assertAlmostEqual(figure["over_maxmip"]["fly"],
+            other = rows[row["side"], "pdm"]["fly"]["frames_per_second"]
+            self.assertAlmostEqual(figure["over_pdm"]["fly"],
                                    other / row["fly"]["frames_per_second"])
             smallest = rows[32, row["method"]]["walk"]["frames_per_second"]
             self.assertAlmostEqual(figure["growth"]["walk"],
@@ -220,7 +221,7 @@ class Bench(Case):
             self.skipTest("no OpenGL here")
         report = self.terrain("--sizes", 64, "--backend", "gl")
         rows = {row["method"]: row for row in report["rows"]}
-        self.assertEqual(set(rows), {"maxmip", "safe", "cone-loop", "mesh", "lod"})
+        self.assertEqual(set(rows), {"maxmip", "pdm", "safe", "cone-loop", "mesh", "lod"})
         for method in "mesh", "lod":
             self.assertEqual(rows[method]["bytes"], 4 * 64 * 64)
             self.assertEqual(rows[method]["fly"]["mean_crossings"], 0)

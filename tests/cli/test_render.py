@@ -12,7 +12,7 @@ from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE, 
 
 BODIES = ["plane", "cylinder", "sphere", "torus"]
 METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
-           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick"]
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "pdm"]
 SMALL = ["--size", "32x24", "--samples", "1", "--overwrite"]
 
 

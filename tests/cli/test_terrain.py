@@ -13,7 +13,7 @@ from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, PROGRAM, USAGE, Case, ma
 
 SMALL = ["--size", "48x27", "--samples", "1"]
 METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
-           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick"]
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "pdm"]
 
 
 class Terrain(Case):

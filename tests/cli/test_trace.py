@@ -13,7 +13,7 @@ from program import (BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE,
 INF = float("inf")
 DOWN = [0.5, 0.5, 1, 0, 0, 0, -1, INF]
 METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
-           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "reference"]
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "pdm", "reference"]
 
 
 class Rays(Case):
@@ -507,7 +507,7 @@ class VerifyRays(Rays):
 
     def test_maps_allow_the_methods_they_have_ratios_for(self):
         self.hills()
-        free = {"fast", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion"}
+        free = {"fast", "maxmip", "qdm", "pdm", "parallax", "linear", "relief", "occlusion"}
         for output, options, more in [
             ("l2.npy", [], {"cone-fixed", "cone-loop", "cone-exact", "robust", "quick"}),
             ("d.png", ["--layout", "dummer"],

@@ -53,7 +53,7 @@ for language in core es; do
         check $language-$stage.vert vert
     done
     for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
-        RELAXED ROBUST QUICK; do
+        RELAXED ROBUST QUICK PDM; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag

@@ -122,7 +122,7 @@ static void names_and_needs(void **state)
     assert_int_equal(hc_trace_method_steps(HC_TRACE_CONE_FIXED), 10);
     assert_int_equal(hc_trace_method_steps(HC_TRACE_SAFE), 0);
     assert_int_equal(hc_trace_method_steps((hc_trace_method)99), 0);
-    assert_int_equal(hc_trace_method_count(), HC_TRACE_QUICK + 1);
+    assert_int_equal(hc_trace_method_count(), HC_TRACE_PDM + 1);
     assert_string_equal(hc_trace_method_name(HC_TRACE_CONE_EXACT), "cone-exact");
     assert_string_equal(hc_trace_method_name((hc_trace_method)-1), "unknown");
     assert_int_equal(hc_trace_method_needs(HC_TRACE_RELAXED), HC_NEEDS_RELAXED);

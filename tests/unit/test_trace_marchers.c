@@ -1,4 +1,4 @@
-/* quick, relaxed, robust and qdm on fields where the answer can be worked out on paper. */
+/* quick, relaxed, robust, qdm and pdm on fields where the answer can be worked out on paper. */
 #include <heightcast/bake.h>
 #include <heightcast/trace.h>
 
@@ -239,6 +239,55 @@ static void qdm_sees_a_tower_as_a_box(void **state)
     expect_near((double)hit.u, 8.0 / SIDE, 1e-6);
 }
 
+/* ---- pdm ------------------------------------------------------------------------------------ */
+
+static float uniform(uint32_t *seed)
+{
+    *seed = *seed * 1664525U + 1013904223U;
+    return (float)(*seed >> 8) / 16777216.0F;
+}
+
+/* Down and up, from above, inside and outside: the hits and the crossings of maxmip, but for a few in
+ * ten thousand. */
+static void pdm_walks_as_maxmip_does(void **state)
+{
+    enum { NOISE = 64, RAYS = 20000 };
+    static float           noise[NOISE * NOISE];
+    const hc_trace_options options[2] = { { .method = HC_TRACE_MAXMIP },
+                                          { .method = HC_TRACE_PDM } };
+    const hc_field         field      = { .heights = noise, .width = NOISE, .height = NOISE };
+    hc_tracer             *tracers[2];
+    double                 crossings[2] = { 0.0, 0.0 };
+    uint32_t               seed         = 5;
+    int                    hits = 0, other = 0;
+    (void)state;
+    assert_int_equal(hc_synth(noise, NOISE, NOISE, "noise", 1, NULL), HC_OK);
+    for (int k = 0; k < 2; k++) {
+        assert_int_equal(hc_tracer_create(&tracers[k], &field, &options[k], NULL), HC_OK);
+    }
+    for (int i = 0; i < RAYS; i++) {
+        hc_ray ray = { .tmax = INFINITY };
+        hc_hit hit[2];
+        for (int axis = 0; axis < 3; axis++) {
+            ray.origin[axis]    = axis < 2 ? 1.4F * uniform(&seed) - 0.2F : 0.5F + uniform(&seed);
+            ray.direction[axis] = (axis < 2 ? uniform(&seed) : 0.5F * uniform(&seed)) - 0.4F;
+        }
+        for (int k = 0; k < 2; k++) {
+            (void)hc_trace_nearest(tracers[k], &hit[k], &ray);
+            crossings[k] += hit[k].crossings;
+        }
+        hits += hit[0].t < INFINITY ? 1 : 0;
+        other += hit[0].t != hit[1].t && !(fabsf(hit[0].t - hit[1].t) < 1e-5F) ? 1 : 0;
+    }
+    print_message("pdm: %d of %d hits are others\n", other, hits);
+    assert_true(hits > RAYS / 3);
+    assert_true(other < RAYS / 1000);
+    assert_true(fabs(crossings[1] - crossings[0]) < 0.01 * crossings[0]);
+    for (int k = 0; k < 2; k++) {
+        hc_tracer_destroy(tracers[k]);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -252,6 +301,7 @@ int main(void)
         cmocka_unit_test(robust_loses_what_lies_between_two_walls),
         cmocka_unit_test(qdm_meets_the_tops_of_a_plane),
         cmocka_unit_test(qdm_sees_a_tower_as_a_box),
+        cmocka_unit_test(pdm_walks_as_maxmip_does),
     };
     fill_fields();
     return cmocka_run_group_tests(tests, NULL, NULL);

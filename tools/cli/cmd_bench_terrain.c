@@ -62,7 +62,7 @@ static void row_done(void *user, const hc_bench_terrain_row *row)
     hc_cli_run_flush(r);
 }
 
-/* ---- against maxmip, and against the smallest size ---- */
+/* ---- against the 2009 paper, and against the smallest size ---- */
 
 /* The first row of that method on the field of `like`; side 0: of any side. */
 static const hc_bench_terrain_row *find(const hc_cli_run *r, const hc_bench_terrain_row *like,
@@ -99,15 +99,15 @@ static void add_figures(hc_cli_run *r)
     for (int i = 0; i < r->count; i++) {
         const hc_bench_terrain_row *row    = row_at(r, i);
         const hc_bench_terrain_row *first  = find(r, row, row->method, 0);
-        const hc_bench_terrain_row *maxmip = find(r, row, "maxmip", row->side);
+        const hc_bench_terrain_row *pdm    = find(r, row, "pdm", row->side);
         cJSON                      *object = cJSON_CreateObject();
         (void)cJSON_AddStringToObject(object, "field", row->field);
         (void)cJSON_AddNumberToObject(object, "side", row->side);
         (void)cJSON_AddStringToObject(object, "method", row->method);
         hc_cli_say(r->cli, "\n%s %d %s: a frame takes\n", row->field, row->side, row->method);
         add_ratio(r, object, "growth", row, first);
-        if (maxmip != NULL) {
-            add_ratio(r, object, "over_maxmip", row, maxmip);
+        if (pdm != NULL) {
+            add_ratio(r, object, "over_pdm", row, pdm);
         }
         (void)cJSON_AddItemToArray(list, object);
     }

@@ -194,10 +194,11 @@ const hc_cli_option hc_cli_options[] = {
       .target   = TARGET(rays.method),
       .words    = hc_cli_marcher_words,
       .metavar  = "NAME",
-      .help = "How rays find the surface. fast (default), safe, maxmip and reference (slow, the "
-              "judge) lose no hit; qdm, parallax, linear, relief, occlusion, cone-fixed, "
-              "cone-loop, cone-exact, relaxed, robust and quick are the published ones. What a "
-              "method needs is baked, unless FIELD is a map that has it." },
+      .help =
+          "How rays find the surface. fast (default), safe, maxmip and reference (slow, the "
+          "judge) lose no hit; qdm, parallax, linear, relief, occlusion, cone-fixed, "
+          "cone-loop, cone-exact, relaxed, robust, quick and pdm are the published ones. What a "
+          "method needs is baked, unless FIELD is a map that has it." },
     { .name     = "any",
       .commands = HC_CLI_TRACE,
       .section  = HC_CLI_SECTION_WORK,
@@ -429,7 +430,7 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
                   "sizes); trace: these casters (default: all that are built in); steps: of fast, "
                   "safe and maxmip (default: all); terrain: those of render terrain, and "
-                  "mesh and lod, its polygons (default: maxmip,safe,cone-loop; cpu: also fast; "
+                  "mesh and lod, its polygons (default: maxmip,pdm,safe,cone-loop; cpu: also fast; "
                   "gl: also mesh,lod)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,

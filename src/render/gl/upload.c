@@ -86,7 +86,7 @@ int hc_gl_method(hc_trace_method method)
         [HC_TRACE_PARALLAX] = 4,    [HC_TRACE_LINEAR] = 5,     [HC_TRACE_RELIEF] = 6,
         [HC_TRACE_OCCLUSION] = 7,   [HC_TRACE_CONE_FIXED] = 8, [HC_TRACE_CONE_LOOP] = 9,
         [HC_TRACE_CONE_EXACT] = 10, [HC_TRACE_RELAXED] = 11,   [HC_TRACE_ROBUST] = 12,
-        [HC_TRACE_QUICK] = 13
+        [HC_TRACE_QUICK] = 13,      [HC_TRACE_PDM] = 14
     };
     return numbers[method];
 }
