@@ -11,6 +11,10 @@
  * GLSL
  *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
  *                                   axes that hc_wraps names
+ *     #define HC_STEPS              samples are flat tops as wide as they are apart, instead of
+ *                                   patches between them: HC_SAFE and HC_MAXMIP (HC_QDM: always)
+ *     #define HC_OPEN_SIDES         rays that come in through a side below the surface do not hit
+ *                                   it there, but go on, may come up, and then hit from above
  *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R,
  * roots
  *                                   of the ratios in G, slopes in B and A; hc_ratios is not read
@@ -54,6 +58,11 @@
 #if defined(HC_DUMMER) && HC_METHOD == HC_SAFE
 #error heightcast.glsl: the 2006 map has no cell ratios for HC_SAFE; choose another HC_METHOD
 #endif
+#if HC_METHOD == HC_QDM || defined(HC_STEPS)
+#define HC_TOPS true
+#else
+#define HC_TOPS false
+#endif
 #ifndef HC_CONE_CHANNELS
 #define HC_CONE_CHANNELS 4
 #endif
@@ -74,7 +83,7 @@ uniform sampler2D hc_bounds;
 uniform int       hc_levels;
 #endif
 /* Samples; cells per tile: as many, with grid registration and no wrap one less; place of sample 0
- * in cells: 0.5, with grid registration 0, for qdm 0.5 less, since its cells are the texels; axes
+ * in cells: 0.5, with grid registration 0, for qdm and steps 0.5 less, since cells are texels; axes
  * along which the field repeats. */
 uniform ivec2 hc_size;
 uniform vec2  hc_steps, hc_zero;
@@ -82,8 +91,8 @@ uniform bvec2 hc_wraps;
 uniform int   hc_step_count;  /* at most so many steps, in methods that count them */
 uniform int   hc_refinements; /* bisections; -1: one secant, -2: none              */
 
-/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip, qdm and pdm), if
- * you care. */
+/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip, qdm and
+ * pdm), if you care. */
 int hc_fetch_count    = 0;
 int hc_crossing_count = 0;
 
@@ -227,7 +236,7 @@ vec4 hc_corners(ivec2 cell)
 
 hc_patch hc_patch_of(ivec2 cell)
 {
-    if (HC_METHOD == HC_QDM) {
+    if (HC_TOPS) {
         return hc_patch(hc_sample(cell), vec2(0.0), 0.0); /* a flat top */
     }
     vec4 h = hc_corners(cell);
@@ -306,6 +315,16 @@ float hc_cell_slope(ivec2 cell, int channel)
     return 1.0 / max(texelFetch(hc_ratios, hc_index(cell), 0)[channel], 1e-30);
 }
 
+/* Tops are wider than their samples: how much nearer they are than the samples, from here on. */
+float hc_nearer(hc_path path, ivec2 cell, float s)
+{
+    vec2 inside = hc_at(path, s).xy - vec2(cell);
+    vec2 behind = vec2(path.along.x > 0.0 ? inside.x : 1.0 - inside.x,
+                       path.along.y > 0.0 ? inside.y : 1.0 - inside.y);
+    vec2 steps  = vec2(notEqual(path.along.xy, vec2(0.0))) / hc_steps;
+    return HC_TOPS ? dot(behind, steps) : 0.0;
+}
+
 /* docs/algorithms.md, sections 4 and 19.3, has the proof. A cone that leads out of the cell
  * carries the ray, else the patch decides and the ray goes over the wall. */
 hc_found hc_march_safe(hc_path path)
@@ -315,6 +334,7 @@ hc_found hc_march_safe(hc_path path)
     float s       = path.from;
     ivec2 cell    = path.cell;
     int   steps   = 0;
+    bool  crossed = false;
     if (HC_CONE_CHANNELS == 1) {
         channel = 0;
     }
@@ -324,11 +344,12 @@ hc_found hc_march_safe(hc_path path)
         float leave = min(min(walls.x, walls.y), path.end);
         steps++;
         if (gap.x <= 0.0) {
-            return hc_found(s, 0, steps);
+            return hc_found(s, HC_TOPS && crossed ? HC_SIDE : 0, steps);
         }
         float slope = hc_cell_slope(cell, channel);
         float rate  = slope * run - path.along.z;
-        float open_ = rate > 0.0 ? s + gap.x / rate : HC_MISS;
+        float room  = gap.x - slope * hc_nearer(path, cell, s);
+        float open_ = room < 0.0 ? s : rate > 0.0 ? s + room / rate : HC_MISS;
         if (open_ <= leave) {
             float meet = hc_contact(gap, leave - s);
             if (meet < HC_MISS) {
@@ -339,6 +360,7 @@ hc_found hc_march_safe(hc_path path)
             break;
         }
         hc_crossing_count += 1;
+        crossed      = true;
         ivec2 before = cell;
         if (open_ > leave) {
             s    = open_;
@@ -411,7 +433,8 @@ float hc_first_root(vec3 gap, float reach)
 }
 
 /* WSCG 2009, 3 to 5, as printed: what it remembers is a place on the ray and a level. The texel is
- * looked up a little ahead of the place, and what lies within that little of a corner is passed by. */
+ * looked up a little ahead of the place, and what lies within that little of a corner is passed
+ * by. */
 hc_found hc_march_pdm(hc_path path)
 {
     float s     = path.from;
@@ -482,7 +505,7 @@ hc_found hc_march_maxmip(hc_path path)
         } else {
             if (!above) {
                 vec3  gap  = hc_gap_of(hc_patch_of(cell), path, cell, s);
-                bool  face = HC_METHOD == HC_QDM && crossed && gap.x <= 0.0;
+                bool  face = HC_TOPS && crossed && gap.x <= 0.0;
                 float meet = gap.x <= 0.0 ? 0.0 : hc_contact(gap, leave - s);
                 if (meet < HC_MISS) {
                     return hc_found(s + meet, face ? HC_SIDE : 0, steps);
@@ -728,6 +751,14 @@ hc_found hc_march_cones(hc_path path)
 
 /* ---- rays ------------------------------------------------------------------------------------ */
 
+/* The cell at path.from; on a wall it is the one that the ray goes into. */
+ivec2 hc_first_cell(hc_path path)
+{
+    vec2 inside = clamp(hc_at(path, path.from).xy, hc_low(), hc_high());
+    return ivec2(path.along.x < 0.0 ? ceil(inside.x) - 1.0 : floor(inside.x),
+                 path.along.y < 0.0 ? ceil(inside.y) - 1.0 : floor(inside.y));
+}
+
 /* To the box of the field. through: the axis of the side it comes in by, 2 from above, 3 if it
  * starts in the box. False: it passes by. */
 bool hc_enter(vec3 origin, vec3 direction, float t_max, out hc_path path, out int through)
@@ -754,11 +785,56 @@ bool hc_enter(vec3 origin, vec3 direction, float t_max, out hc_path path, out in
             path.end     = min(path.end, leaves);
         }
     }
-    vec2 inside = clamp(hc_at(path, path.from).xy, low.xy, high.xy);
-    path.cell.x = int(path.along.x < 0.0 ? ceil(inside.x) - 1.0 : floor(inside.x));
-    path.cell.y = int(path.along.y < 0.0 ? ceil(inside.y) - 1.0 : floor(inside.y));
+    path.cell = hc_first_cell(path);
     return path.from <= path.end;
 }
+
+#ifdef HC_OPEN_SIDES
+
+/* Rays below the surface are followed down to here. */
+#define HC_DEEP (-1.0)
+
+/* For a ray that starts at or under the surface: least r at which it comes down on it again after
+ * it came up; HC_MISS if it does not. */
+float hc_gap_return(vec3 gap, float reach)
+{
+    float up    = gap.x < 0.0 ? hc_contact(-gap, reach) : 0.0;
+    float slope = gap.y + 2.0 * up * gap.z;
+    float back  = slope > 0.0 && gap.z < 0.0 ? up - slope / gap.z : HC_MISS;
+    return up <= reach && back <= reach ? back : HC_MISS;
+}
+
+/* Cell by cell until the ray comes up. True: from there on it can be marched; else it is lost, or
+ * has come down again at once and `found` says where. */
+bool hc_come_up(inout hc_path path, inout hc_found found)
+{
+    if (hc_at(path, path.from).z < HC_DEEP) {
+        path.from = path.along.z > 0.0 ? hc_reaches(path.place.z, path.along.z, HC_DEEP) : HC_MISS;
+        path.cell = hc_first_cell(path);
+    } else if (path.along.z < 0.0) {
+        path.end = min(path.end, hc_reaches(path.place.z, path.along.z, HC_DEEP));
+    }
+    for (int most = 0; most < 65536 && path.from < path.end; most++) {
+        vec3  gap   = hc_gap_of(hc_patch_of(path.cell), path, path.cell, path.from);
+        vec2  walls = hc_walls(path, path.cell, path.cell + 1, path.from);
+        float leave = min(min(walls.x, walls.y), path.end);
+        float back  = gap.x > 0.0 ? HC_MISS : hc_gap_return(gap, leave - path.from);
+        if (gap.x > 0.0) {
+            return true;
+        }
+        found.steps++;
+        if (back < HC_MISS || leave >= path.end) {
+            found.s = back < HC_MISS ? path.from + back : HC_MISS;
+            return false;
+        }
+        hc_crossing_count += 1;
+        path.cell = hc_cross(path, path.cell, walls);
+        path.from = min(walls.x, walls.y);
+    }
+    return false;
+}
+
+#endif
 
 /* The first hit of origin + t * direction, 0 <= t <= t_max. The field is solid below its surface:
  * a ray that starts there hits at once (HC_INSIDE), one that comes in through a side wall hits it
@@ -770,6 +846,16 @@ hc_hit hc_nearest(vec3 origin, vec3 direction, float t_max)
     hc_found found = hc_found(HC_MISS, 0, 0);
     if (hc_enter(origin, direction, t_max, path, through)) {
         float gap = hc_gap_of(hc_patch_of(path.cell), path, path.cell, path.from).x;
+#ifdef HC_OPEN_SIDES
+        if (gap <= 0.0 && through < 2) {
+            found.steps = 1;
+            if (hc_come_up(path, found)) {
+                int before = found.steps;
+                found      = hc_march(path);
+                found.steps += before;
+            }
+        } else
+#endif
         if (gap <= 0.0) {
             found = hc_found(path.from, through == 3 ? HC_INSIDE : through == 2 ? 0 : HC_SIDE, 1);
         } else {
@@ -831,7 +917,7 @@ vec2 hc_stored_slope(ivec2 texel)
 /* Slopes of the samples, filtered: smooth shading, heights per tile. */
 vec2 hc_smooth_slopes(vec2 uv)
 {
-    vec2  half_ = HC_METHOD == HC_QDM ? vec2(0.5) : vec2(0.0); /* its samples sit amid its cells */
+    vec2  half_ = HC_TOPS ? vec2(0.5) : vec2(0.0); /* its samples sit amid its cells */
     vec2  place = uv * hc_steps - hc_zero - half_;
     ivec2 cell  = ivec2(floor(place));
     vec2  f     = place - vec2(cell);

@@ -214,7 +214,7 @@ vec3 draped(vec2 uv)
 /* Of the samples on the field's posts: 0, else half a step. */
 float first_sample(void)
 {
-    return HC_METHOD == HC_QDM ? hc_zero.x + 0.5 : hc_zero.x;
+    return HC_TOPS ? hc_zero.x + 0.5 : hc_zero.x;
 }
 
 /* The nearest sample instead of what lies between. */
@@ -246,7 +246,7 @@ const vec3 CUT_GROUND = vec3(0.16, 0.12, 0.085);
 
 bool is_cut(hc_hit hit)
 {
-    bool faces = HC_METHOD == HC_QDM;
+    bool faces = HC_TOPS;
     return (hit.flags & HC_INSIDE) != 0 || ((hit.flags & HC_SIDE) != 0 && !faces);
 }
 
@@ -261,7 +261,7 @@ vec3 across(vec3 normal)
 vec3 wall_normal(vec3 place, vec3 along)
 {
     vec2 at   = place.xy * hc_steps - hc_zero;
-    vec2 away = HC_METHOD == HC_QDM ? abs(at - floor(at + 0.5))
+    vec2 away = HC_TOPS ? abs(at - floor(at + 0.5))
                                     : min(abs(at - hc_low()), abs(at - hc_high()));
     return across(away.x <= away.y ? vec3(along.x > 0.0 ? -1.0 : 1.0, 0.0, 0.0)
                                    : vec3(0.0, along.y > 0.0 ? -1.0 : 1.0, 0.0));
@@ -272,7 +272,7 @@ vec3 normal_at(hc_hit hit, vec3 along)
     if ((hit.flags & HC_SIDE) != 0) {
         return wall_normal(hit.place, along);
     }
-    bool flat_  = u_blocky || is_cut(hit) || HC_METHOD == HC_QDM;
+    bool flat_  = u_blocky || is_cut(hit) || HC_TOPS;
     vec2 slopes = flat_ ? hc_patch_slopes(hit.place.xy) : hc_smooth_slopes(hit.place.xy);
 #ifdef DETAILS
     slopes += is_cut(hit) ? vec2(0.0) : hc_details_slopes(hit.place.xy, detail_left);

@@ -147,8 +147,8 @@ typedef struct hc_terrain hc_terrain;
  *          zero: shaded, by the CPU
  *
  * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range and a mask of another size than
- * the field. gl: those of hc_render, and HC_ERROR_UNSUPPORTED for steps and open sides; polygons and
- * details: where they cannot be. */
+ * the field; HC_ERROR_UNSUPPORTED for polygons and details where they cannot be. gl: also those of
+ * hc_render. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);

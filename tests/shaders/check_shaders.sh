@@ -81,6 +81,12 @@ for language in core es; do
     done
     fragment gather-dummer.frag core "HC_METHOD HC_CONE_LOOP" HC_GATHER HC_DUMMER
     check gather-dummer.frag frag
+    scene=terrain
+    for method in SAFE MAXMIP QDM; do
+        fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS HC_OPEN_SIDES
+        check $language-steps-$method.frag frag
+    done
+    scene=relief
     fragment $language-diamond.frag $language "HC_METHOD HC_SAFE" "HC_CONE_CHANNELS 1"
     check $language-diamond.frag frag
     for method in PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT QUICK; do

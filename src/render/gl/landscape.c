@@ -50,12 +50,7 @@ static hc_result check_method(const hc_terrain *terrain, hc_log *log)
                        "scene.trace.method is %s, which is the CPU's alone",
                        hc_trace_method_name(trace->method));
     }
-    const char *more = trace->open_sides                    ? "open sides"
-                       : trace->surface == HC_SURFACE_STEPS ? "steps"
-                                                            : NULL;
-    return more == NULL ? HC_OK
-                        : hc_fail(log, HC_ERROR_UNSUPPORTED,
-                                  "the scene has %s, which are the CPU's alone", more);
+    return HC_OK;
 }
 
 static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)
@@ -197,19 +192,29 @@ static const char *details_of(const hc_terrain *terrain, bool exact)
                                                                        "#define HC_DETAIL_STEPS\n";
 }
 
+/* What shaders are told beside the method. */
+static void add_choices(char *head, size_t size, const hc_terrain *terrain, const char *part,
+                        bool exact)
+{
+    const hc_trace_options *trace = &terrain->scene.trace;
+    (void)snprintf(head + strlen(head), size - strlen(head), "#define %s\n%s%s%s", part,
+                   details_of(terrain, exact),
+                   trace->surface == HC_SURFACE_STEPS ? "#define HC_STEPS\n" : "",
+                   trace->open_sides ? "#define HC_OPEN_SIDES\n" : "");
+}
+
 /* before: the vertex shader. */
 static hc_result build(unsigned *program, const hc_terrain *terrain, const char *before, bool exact,
                        hc_log *log)
 {
     const hc_trace_options *trace = &terrain->scene.trace;
-    char                    head[224];
+    char                    head[256];
     hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
     const char *part = strcmp(before, "bodies.vert") == 0                      ? "BODIES"
                        : strcmp(before, "ground.vert") == 0                    ? "POLYGONS"
                        : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
                                                                                : "RAYS";
-    (void)snprintf(head + strlen(head), sizeof head - strlen(head), "#define %s\n%s", part,
-                   details_of(terrain, exact));
+    add_choices(head, sizeof head, terrain, part, exact);
     hc_gl_recipe recipe = hc_gl_recipe_of(head, before, "terrain.frag");
     if (terrain->details.count > 0) { /* between the marchers and what is drawn with them */
         recipe.fragment[2] = recipe.fragment[1];

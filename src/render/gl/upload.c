@@ -116,8 +116,8 @@ void hc_upload_field(unsigned program, const hc_field *field, const hc_trace_opt
                      hc_trace_method method)
 {
     const unsigned wrap = (unsigned)field->wrap;
-    const double   zero =
-        (field->registration == HC_GRID ? 0.0 : 0.5) - (method == HC_TRACE_QDM ? 0.5 : 0.0);
+    const bool     tops = method == HC_TRACE_QDM || trace->surface == HC_SURFACE_STEPS;
+    const double   zero = (field->registration == HC_GRID ? 0.0 : 0.5) - (tops ? 0.5 : 0.0);
     hc_upload_int(program, "hc_levels", hc_pyramid_levels(field->width, field->height));
     glUniform2i(glGetUniformLocation(program, "hc_size"), field->width, field->height);
     glUniform2i(glGetUniformLocation(program, "hc_wraps"), (wrap & HC_WRAP_U) != 0,
