@@ -3,6 +3,7 @@
 #include "commands.h"
 #include "figures.h"
 #include "frames.h"
+#include "meaning.h"
 #include "options.h"
 #include "relief.h"
 #include "words.h"
@@ -12,14 +13,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum {
-    WIDTH         = 960,
-    HEIGHT        = 640,
-    LEGEND_HEIGHT = 8,
-    LEGEND_LEAST  = 160,
-    MARGIN        = 10,
-    SIDE_MAX      = 65536
-};
+enum { WIDTH = 960, HEIGHT = 640, LEGEND_HEIGHT = 8, LEGEND_LEAST = 160, MARGIN = 10 };
 
 /* ---- choices that make no sense ---- */
 
@@ -28,12 +22,6 @@ static int check_light(hc_cli *cli)
     const hc_cli_settings *settings = &cli->settings;
     const double          *light    = settings->render.light;
     const double          *colour   = settings->render.colour;
-    if (hc_cli_given(settings, "lamp") && hc_cli_given(settings, "light")) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--lamp and --light exclude each other");
-    }
-    if (hc_cli_given(settings, "albedo") && hc_cli_given(settings, "colour")) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--albedo and --colour exclude each other");
-    }
     if (hc_cli_given(settings, "light")
         && fabs(light[0]) + fabs(light[1]) + fabs(light[2]) == 0.0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--light 0,0,0 is no direction");
@@ -76,32 +64,17 @@ static int check_animation(hc_cli *cli)
 
 static int check_meaning(hc_cli *cli)
 {
-    const hc_cli_settings *settings = &cli->settings;
-    const hc_cones         cones    = settings->map.cone.cones;
+    static const char *const pairs[][2] = { { "lamp", "light" }, { "albedo", "colour" } };
+    const hc_cli_settings   *settings   = &cli->settings;
     if (strcmp(settings->paths[0], "relief") != 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "nothing that is drawn is called '%s'; relief and, right behind render, "
                            "terrain are",
                            settings->paths[0]);
     }
-    if (settings->size.width > SIDE_MAX || settings->size.height > SIDE_MAX) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--size %dx%d: sides are at most %d",
-                           settings->size.width, settings->size.height, SIDE_MAX);
-    }
-    if ((uint64_t)settings->size.width * (uint64_t)settings->size.height > HC_CLI_PIXELS_MAX) {
-        return hc_cli_fail(cli, HC_CLI_MEMORY, "--size %dx%d: at most %llu pixels are drawn",
-                           settings->size.width, settings->size.height,
-                           (unsigned long long)HC_CLI_PIXELS_MAX);
-    }
-    if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",
-                           hc_cli_refine_words((int)settings->render.refine));
-    }
-    if (hc_cli_given(settings, "cones") && cones != HC_CONES_L1 && cones != HC_CONES_QUAD) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
-                           hc_cones_name(cones));
-    }
-    int code = check_light(cli);
+    int code = hc_cli_check_pairs(cli, pairs, sizeof pairs / sizeof *pairs);
+    code     = code == HC_CLI_DONE ? hc_cli_check_drawing(cli) : code;
+    code     = code == HC_CLI_DONE ? check_light(cli) : code;
     code     = code == HC_CLI_DONE ? check_lod(cli) : code;
     return code == HC_CLI_DONE ? check_animation(cli) : code;
 }

@@ -3,6 +3,7 @@
 #include "figures.h"
 #include "frames.h"
 #include "landscape.h"
+#include "meaning.h"
 #include "options.h"
 #include "route.h"
 #include "words.h"
@@ -11,31 +12,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { WIDTH = 1280, HEIGHT = 720, SIDE_MAX = 65536 };
+enum { WIDTH = 1280, HEIGHT = 720 };
 
 /* ---- choices that make no sense ---- */
-
-static int check_size(hc_cli *cli)
-{
-    const hc_cli_size size = cli->settings.size;
-    if (size.width > SIDE_MAX || size.height > SIDE_MAX) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--size %dx%d: sides are at most %d", size.width,
-                           size.height, SIDE_MAX);
-    }
-    if ((uint64_t)size.width * (uint64_t)size.height > HC_CLI_PIXELS_MAX) {
-        return hc_cli_fail(cli, HC_CLI_MEMORY, "--size %dx%d: at most %llu pixels are drawn",
-                           size.width, size.height, (unsigned long long)HC_CLI_PIXELS_MAX);
-    }
-    return HC_CLI_DONE;
-}
-
-/* Of two options that say the same thing in two ways, at most one. */
-static int check_pair(hc_cli *cli, const char *a, const char *b)
-{
-    return hc_cli_given(&cli->settings, a) && hc_cli_given(&cli->settings, b)
-               ? hc_cli_fail(cli, HC_CLI_USAGE, "--%s and --%s exclude each other", a, b)
-               : HC_CLI_DONE;
-}
 
 static int check_details(hc_cli *cli)
 {
@@ -57,24 +36,9 @@ static int check_meaning(hc_cli *cli)
                                             { "eye", "frames" },     { "eye", "moment" },
                                             { "tour", "path" },      { "frames", "moment" },
                                             { "colours", "albedo" }, { "shadows", "shadow-map" } };
-    const hc_cli_settings   *settings   = &cli->settings;
-    const hc_cones           cones      = settings->map.cone.cones;
-    int                      code       = check_size(cli);
-    for (size_t i = 0; code == HC_CLI_DONE && i < sizeof pairs / sizeof *pairs; i++) {
-        code = check_pair(cli, pairs[i][0], pairs[i][1]);
-    }
-    if (code != HC_CLI_DONE) {
-        return code;
-    }
-    if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",
-                           hc_cli_refine_words((int)settings->render.refine));
-    }
-    if (hc_cli_given(settings, "cones") && cones != HC_CONES_L1 && cones != HC_CONES_QUAD) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--cones %s: safe takes l1 or quad",
-                           hc_cones_name(cones));
-    }
-    return check_details(cli);
+    int                      code = hc_cli_check_pairs(cli, pairs, sizeof pairs / sizeof *pairs);
+    code                          = code == HC_CLI_DONE ? hc_cli_check_drawing(cli) : code;
+    return code == HC_CLI_DONE ? check_details(cli) : code;
 }
 
 /* ---- figures ---- */
