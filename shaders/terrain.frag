@@ -59,6 +59,8 @@ layout(location = 2) out vec4 o_counts; /* steps, texels read, came to the box: 
 #define SLOPE 2
 #define IMAGE 3
 
+uniform float u_details_left; /* how much of details this picture's rays see; below 0: by distance */
+
 /* How much of details there is where this pixel's ray came to; below 0: it will tell. */
 float detail_left = 0.0;
 
@@ -453,7 +455,7 @@ hc_hit look(vec3 place, vec3 along)
 #ifdef SKY
     return hc_hit(HC_MISS, place, 0, 0);
 #endif
-    detail_left = -1.0;
+    detail_left = u_details_left;
     hc_hit hit  = nearest(place, along, 1e30);
     if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
         hit.t = HC_MISS;

@@ -222,3 +222,26 @@ hc_result hc_bands_draw(hc_pixel *pixels, double *seconds, const hc_bands *bands
     }
     return HC_OK;
 }
+
+hc_result hc_bands_distances(float *distances, const hc_bands *bands, const hc_eye *eye,
+                             const hc_progress *progress, hc_log *log)
+{
+    const size_t width = (size_t)bands->width;
+    for (int row = 0; row < eye->height; row += bands->rows) {
+        const int  rest = eye->height - row;
+        const band b    = { .first_row = row,
+                            .rows      = bands->rows < rest ? bands->rows : rest,
+                            .height    = eye->height,
+                            .place     = { 0.5, 0.5 } };
+        if (progress->report != NULL
+            && !progress->report(progress->user, (double)row / eye->height)) {
+            return HC_ERROR_CANCELLED;
+        }
+        draw_band(bands, bands->program, &b);
+        read_plane(bands->back, 0, bands->width, b.rows);
+        for (size_t i = 0; i < width * (size_t)b.rows; i++) {
+            distances[(size_t)row * width + i] = bands->back[CHANNELS * i + 3];
+        }
+    }
+    return hc_gl_check("drawing", log);
+}

@@ -49,4 +49,8 @@ typedef void hc_band_add(void *user, hc_pixel *pixel, const hc_sample *sample,
 hc_result hc_bands_draw(hc_pixel *pixels, double *seconds, const hc_bands *bands, const hc_eye *eye,
                         const hc_progress *progress, hc_band_add *add, void *user, hc_log *log);
 
+/* Distances of eye->width * eye->height rays through the middles of the pixels; 1e30: nothing. */
+hc_result hc_bands_distances(float *distances, const hc_bands *bands, const hc_eye *eye,
+                             const hc_progress *progress, hc_log *log);
+
 #endif

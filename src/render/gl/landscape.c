@@ -78,7 +78,7 @@ static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc
     if (result == HC_OK) {
         result = load_bounds(&textures[EXACT_BOUNDS], EXACT_BOUNDS, terrain->exact, log);
     }
-    if (result == HC_OK && terrain->sunview.side > 0) {
+    if (result == HC_OK && terrain->sunview.side > 0 && !hc_terrain_gl_sees_sun(terrain)) {
         result =
             hc_upload_image(&textures[SUNVIEW], SUNVIEW, terrain->sunview.depths,
                             terrain->sunview.side, terrain->sunview.side, 1, "shadow map", log);
@@ -180,6 +180,7 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_pair(program, "u_spacing", scene->spacing[0], scene->spacing[1]);
     hc_upload_int(program, "u_ground", (int)scene->ground);
     hc_upload_int(program, "u_blocky", scene->blocky);
+    hc_upload_float(program, "u_details_left", HC_BY_DISTANCE);
     hc_details_set_uniforms(program, DETAILS, terrain);
 }
 
@@ -243,31 +244,6 @@ static hc_result add_polygons(hc_terrain_gl *gl, const hc_terrain *terrain, hc_l
                            : build(&gl->bodies.program, terrain, "ground.vert", false, log);
 }
 
-hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
-{
-    hc_result result = check_method(terrain, log);
-    if (result != HC_OK) {
-        return result;
-    }
-    *gl = calloc(1, sizeof **gl);
-    if (*gl == NULL) {
-        return hc_fail(log, HC_ERROR_MEMORY, "no memory for OpenGL");
-    }
-    result = hc_gl_open(&(*gl)->context, log);
-    result = result != HC_OK ? result : load((*gl)->textures, terrain, log);
-    result = result != HC_OK ? result : build(&(*gl)->program, terrain, "screen.vert", false, log);
-    if (result == HC_OK && terrain->exact != NULL) {
-        result = build(&(*gl)->exact, terrain, "screen.vert", true, log);
-    }
-    if (result == HC_OK && terrain->bodies != NULL) {
-        result = add_bodies(*gl, terrain, log);
-    }
-    if (result == HC_OK && terrain->scene.polygons != HC_POLYGONS_NONE) {
-        result = add_polygons(*gl, terrain, log);
-    }
-    return result; /* hc_terrain_destroy frees what there is */
-}
-
 void hc_terrain_gl_free(hc_terrain_gl *gl)
 {
     if (gl == NULL) {
@@ -308,6 +284,82 @@ static void set_eye(unsigned program, const hc_terrain *terrain, const hc_eye *e
     hc_upload_float(program, "u_footprint", hc_terrain_footprint(eye));
     hc_upload_float(program, "u_haze_top", hc_haze_top(terrain) - eye->place[2]);
 }
+
+/* ---- what the sun sees ----------------------------------------------------------------------- */
+
+/* With nothing in its way, and all details however far they are from the eye. */
+static void look_from_sun(unsigned program, const hc_terrain *terrain, const hc_eye *eye)
+{
+    glUseProgram(program);
+    set_eye(program, terrain, eye);
+    hc_upload_int(program, "u_shadows", 0);
+    hc_upload_float(program, "u_details_left", 1.0);
+}
+
+static void look_from_eye(unsigned program)
+{
+    glUseProgram(program);
+    hc_upload_int(program, "u_shadows", 1);
+    hc_upload_float(program, "u_details_left", HC_BY_DISTANCE);
+}
+
+static hc_result draw_sunview(hc_terrain_gl *gl, const hc_terrain *terrain, hc_log *log)
+{
+    const hc_sunview *view = &terrain->sunview;
+    hc_bands          bands;
+    hc_eye            eye;
+    hc_sunview_eye(&eye, terrain);
+    hc_result result = hc_bands_make(&bands, view->side, view->side, TEXTURES, log);
+    result           = result != HC_OK ? result : hc_bands_take_bodies(&bands, &gl->bodies, log);
+    bands.program    = gl->program;
+    if (result == HC_OK) {
+        look_from_sun(gl->program, terrain, &eye);
+        if (gl->bodies.count > 0) {
+            look_from_sun(gl->bodies.program, terrain, &eye);
+        }
+        result = hc_bands_distances(view->depths, &bands, &eye, &terrain->options.progress, log);
+    }
+    if (result == HC_OK) {
+        look_from_eye(gl->program);
+        if (gl->bodies.count > 0) {
+            look_from_eye(gl->bodies.program);
+        }
+        result = hc_upload_image(&gl->textures[SUNVIEW], SUNVIEW, view->depths, view->side,
+                                 view->side, 1, "shadow map", log);
+    }
+    hc_bands_free(&bands);
+    return result;
+}
+
+hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
+{
+    hc_result result = check_method(terrain, log);
+    if (result != HC_OK) {
+        return result;
+    }
+    *gl = calloc(1, sizeof **gl);
+    if (*gl == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for OpenGL");
+    }
+    result = hc_gl_open(&(*gl)->context, log);
+    result = result != HC_OK ? result : load((*gl)->textures, terrain, log);
+    result = result != HC_OK ? result : build(&(*gl)->program, terrain, "screen.vert", false, log);
+    if (result == HC_OK && terrain->exact != NULL) {
+        result = build(&(*gl)->exact, terrain, "screen.vert", true, log);
+    }
+    if (result == HC_OK && terrain->bodies != NULL) {
+        result = add_bodies(*gl, terrain, log);
+    }
+    if (result == HC_OK && terrain->scene.polygons != HC_POLYGONS_NONE) {
+        result = add_polygons(*gl, terrain, log);
+    }
+    if (result == HC_OK && terrain->sunview.side > 0 && hc_terrain_gl_sees_sun(terrain)) {
+        result = draw_sunview(*gl, terrain, log);
+    }
+    return result; /* hc_terrain_destroy frees what there is */
+}
+
+/* ---- pictures ------------------------------------------------------------------------------- */
 
 typedef struct job {
     const hc_terrain *terrain;

@@ -9,6 +9,12 @@
 /* A context, and what of a terrain is the same for all its pictures. */
 typedef struct hc_terrain_gl hc_terrain_gl;
 
+/* True if GL draws what the sun sees; of triangles rays do. */
+static inline bool hc_terrain_gl_sees_sun(const hc_terrain *terrain)
+{
+    return terrain->options.backend == HC_BACKEND_GL && terrain->scene.polygons == HC_POLYGONS_NONE;
+}
+
 #ifdef HC_HAVE_GL
 /* hc_terrain_gl_free accepts NULL. */
 hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log);

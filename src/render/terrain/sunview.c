@@ -55,6 +55,32 @@ static void set_plane(hc_sunview *view, const hc_terrain *terrain)
     view->top += fmax(view->texel[0], view->texel[1]);
 }
 
+hc_result hc_sunview_place(hc_sunview *view, const hc_terrain *terrain, int side, hc_log *log)
+{
+    const size_t row = (size_t)side;
+    *view            = (hc_sunview){ .side = side };
+    set_axes(view, terrain->sun);
+    set_plane(view, terrain);
+    view->depths = malloc(row * row * sizeof *view->depths);
+    return view->depths != NULL
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_MEMORY, "no memory for a shadow map of %d x %d", side, side);
+}
+
+void hc_sunview_eye(hc_eye *eye, const hc_terrain *terrain)
+{
+    const hc_sunview *view    = &terrain->sunview;
+    const double      zero[3] = { 0.0, 0.0, 0.0 };
+    const double half[2] = { 0.5 * view->side * view->texel[0], 0.5 * view->side * view->texel[1] };
+    *eye = (hc_eye){ .width = view->side, .height = view->side, .samples = 1, .parallel = true };
+    hc_add_scaled(eye->place, terrain->low, view->first[0] + half[0], view->across);
+    hc_add_scaled(eye->place, eye->place, view->first[1] + half[1], view->along);
+    hc_add_scaled(eye->place, eye->place, view->top, terrain->sun);
+    hc_add_scaled(eye->forward, zero, -1.0, terrain->sun);
+    hc_add_scaled(eye->right, zero, half[0], view->across);
+    hc_add_scaled(eye->down, zero, half[1], view->along);
+}
+
 /* ---- rays ---------------------------------------------------------------------------------- */
 
 typedef struct job {
@@ -104,23 +130,19 @@ static void cast_row(void *context, int row, int worker)
     }
 }
 
-hc_result hc_sunview_make(hc_sunview *view, const hc_terrain *terrain, int side, hc_log *log)
+hc_result hc_sunview_cast(hc_sunview *view, const hc_terrain *terrain, hc_log *log)
 {
     const int    threads = hc_threads_resolve(terrain->options.threads);
-    const size_t row     = (size_t)side;
-    *view                = (hc_sunview){ .side = side };
-    set_axes(view, terrain->sun);
-    set_plane(view, terrain);
-    view->depths     = malloc(row * row * sizeof *view->depths);
-    job       j      = { .view    = view,
-                         .terrain = terrain,
-                         .rays    = malloc(row * (size_t)threads * sizeof *j.rays),
-                         .hits    = malloc(row * (size_t)threads * sizeof *j.hits) };
-    hc_result result = HC_OK;
-    if (view->depths == NULL || j.rays == NULL || j.hits == NULL) {
-        result = hc_fail(log, HC_ERROR_MEMORY, "no memory for a shadow map of %d x %d", side, side);
+    const size_t row     = (size_t)view->side;
+    job          j       = { .view    = view,
+                             .terrain = terrain,
+                             .rays    = malloc(row * (size_t)threads * sizeof *j.rays),
+                             .hits    = malloc(row * (size_t)threads * sizeof *j.hits) };
+    hc_result    result  = HC_OK;
+    if (j.rays == NULL || j.hits == NULL) {
+        result = hc_fail(log, HC_ERROR_MEMORY, "no memory for the rays of a shadow map");
     } else {
-        result = hc_parallel_for(side, threads, cast_row, &j, terrain->options.progress, log);
+        result = hc_parallel_for(view->side, threads, cast_row, &j, terrain->options.progress, log);
     }
     free(j.rays);
     free(j.hits);

@@ -2,7 +2,7 @@
 #ifndef HC_RENDER_SUNVIEW_H
 #define HC_RENDER_SUNVIEW_H
 
-#include <heightcast/result.h>
+#include "../eye.h"
 
 struct hc_terrain;
 
@@ -18,10 +18,14 @@ typedef struct hc_sunview {
 
 #define HC_SUNVIEW_FAR 1e30F
 
-/* Cast the map's rays on all threads. hc_sunview_free must follow, whatever the result. */
-hc_result hc_sunview_make(hc_sunview *view, const struct hc_terrain *terrain, int side,
-                          hc_log *log);
-void      hc_sunview_free(hc_sunview *view);
+/* Place the map, and take memory for its depths. hc_sunview_free must follow, whatever the result. */
+hc_result hc_sunview_place(hc_sunview *view, const struct hc_terrain *terrain, int side,
+                           hc_log *log);
+/* Cast its rays on all threads; or */
+hc_result hc_sunview_cast(hc_sunview *view, const struct hc_terrain *terrain, hc_log *log);
+/* draw them: the eye that sees the map, texel by texel. */
+void hc_sunview_eye(hc_eye *eye, const struct hc_terrain *terrain);
+void hc_sunview_free(hc_sunview *view);
 
 /* Share of the sun's light that comes to a place, counted from the terrain's low corner, on a
  * surface whose normal has this cosine to the sun: the four texels around it, weighed. */

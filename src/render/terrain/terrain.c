@@ -125,7 +125,10 @@ hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
         result = put_objects(*terrain, log);
     }
     if (result == HC_OK && scene->shadow_map > 0 && !scene->no_shadows) {
-        result = hc_sunview_make(&(*terrain)->sunview, *terrain, scene->shadow_map, log);
+        result = hc_sunview_place(&(*terrain)->sunview, *terrain, scene->shadow_map, log);
+        if (result == HC_OK && !hc_terrain_gl_sees_sun(*terrain)) {
+            result = hc_sunview_cast(&(*terrain)->sunview, *terrain, log);
+        }
     }
     if (result == HC_OK && (*terrain)->options.backend == HC_BACKEND_GL) {
         result = hc_terrain_gl_make(&(*terrain)->gl, *terrain, log);
