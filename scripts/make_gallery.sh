@@ -113,4 +113,21 @@ for colours in elevation slope; do
     terrain $colours --colours $colours --size 480x270
 done
 terrain missed --method cone-loop --view missed --size 480x270
+
+# Details, as the RaycastTerrain sample lays them over its terrain, where slopes say so.
+$program gen fbm $work/turf.npy --size 128 --seed 4 --overwrite -q
+$program gen cobbles $work/stones.npy --size 128 --seed 2 --overwrite -q
+$program gen ridged $work/rock.npy --size 256 --seed 5 --overwrite -q
+$program bake data/jacksboro_fault_dem.pgm $work/heights.npy --layout height --range data \
+    --overwrite -q
+scripts/slope_mask.py $work/heights.npy $work/mask.png --spacing 74.5,92.5 --rise 840 --steep 0.3
+valley=(--eye 12600,-13800,800 --at 10300,-15300,420 --above 90)
+details=(--detail $work/turf.npy,260,14 --detail $work/stones.npy,260,20
+    --detail $work/rock.npy,700,70 --mask $work/mask.png --detail-fade 2500:7000)
+terrain detail "${valley[@]}" "${details[@]}" --size 960x540
+terrain detail_none "${valley[@]}" --size 400x225
+terrain detail_steps "${valley[@]}" "${details[@]}" --size 400x225 --detail-method steps \
+    --detail-steps 8
+terrain detail_missed "${valley[@]}" "${details[@]}" --size 400x225 --detail-method steps \
+    --detail-steps 8 --view missed --samples 1
 ls $gallery/*.png
