@@ -23,6 +23,14 @@ uniform ivec2     hc_detail_size[4];
 uniform float     hc_detail_cut[4];     /* depth, in the field's heights */
 uniform vec3      hc_detail_mean[4];    /* of its colours */
 uniform bool      hc_detail_colours[4]; /* whether it has some */
+#ifndef HC_DETAIL_STEPS
+/* Pyramids of maxima: R, texels from left to right, row by row. Level 0 is the highest of a texel
+ * and of its right, lower and lower right neighbours; level k of a side n has max(1, n >> k). */
+uniform sampler2D hc_detail_tops;
+uniform int       hc_detail_level_first[4 * 17]; /* of a detail's levels: first texel */
+uniform int       hc_detail_level_count[4];
+uniform int       hc_detail_level_max; /* blocks above it are larger than the ground's cells */
+#endif
 uniform sampler2D hc_mask;              /* a texel per sample: shares of details */
 uniform bool      hc_masked;            /* else each has the same share */
 uniform int       hc_detail_steps;
@@ -77,14 +85,19 @@ float hc_quartic_first(float a, vec4 b, float reach)
 
 /* ---- patches --------------------------------------------------------------------------------- */
 
-vec4 hc_detail_texel(int detail, ivec2 texel)
+ivec2 hc_detail_index(int detail, ivec2 texel)
 {
     ivec2 size  = hc_detail_size[detail];
     ivec2 index = texel - size * ivec2(floor(vec2(texel) / vec2(size)));
     index += size * ivec2(lessThan(index, ivec2(0))); /* where the quotient was rounded */
-    index -= size * ivec2(greaterThanEqual(index, size));
+    return index - size * ivec2(greaterThanEqual(index, size));
+}
+
+vec4 hc_detail_texel(int detail, ivec2 texel)
+{
     hc_fetch_count += 1;
-    return texelFetch(hc_details, index + ivec2(hc_detail_first[detail], 0), 0);
+    return texelFetch(hc_details,
+                      hc_detail_index(detail, texel) + ivec2(hc_detail_first[detail], 0), 0);
 }
 
 hc_patch hc_through(vec4 h)
@@ -155,11 +168,17 @@ bool hc_grid_cross(inout hc_grid g, float r)
     return any(crossed);
 }
 
+/* Cells low .. high - 1 of a grid; no patch in it is higher than `top`. */
+struct hc_block {
+    ivec2 low, high;
+    float top;
+};
+
 struct hc_walk {
     float    left, z, rise, leave;
     hc_grid  grids[HC_GRIDS];
     hc_patch shares[4]; /* of the mask, in this cell of the ground */
-    int      steps;
+    int      steps, level; /* level: of blocks of texels; 0: texels */
     bool     emerged;
 };
 
@@ -218,6 +237,7 @@ void hc_go_in(float r)
     for (int i = 0; i < HC_GROUND; i++) {
         hc_w.grids[i].used = false;
     }
+    hc_w.level = 0;
     hc_choose_details(r);
 }
 
@@ -264,33 +284,114 @@ vec4 hc_detail_gap(float r, out float zero)
 
 /* ---- safe ------------------------------------------------------------------------------------ */
 
-/* From r to the first contact. HC_MISS: to where it has come out of the ground, or to the end. */
+hc_block hc_block_of(int detail, ivec2 cell)
+{
+    int   level = min(hc_w.level, hc_detail_level_count[detail] - 1);
+    ivec2 size  = hc_detail_size[detail];
+    ivec2 index = hc_detail_index(detail, cell);
+    ivec2 sides = max(size >> level, ivec2(1));
+    ivec2 which = min(index >> level, sides - 1);
+    ivec2 next  = (which + 1) << level;
+    ivec2 base  = cell - index;
+    ivec2 high  = base + ivec2(which.x < sides.x - 1 ? next.x : size.x,
+                               which.y < sides.y - 1 ? next.y : size.y);
+    int   texel = hc_detail_level_first[detail * 17 + level] + which.y * sides.x + which.x;
+    int   width = textureSize(hc_detail_tops, 0).x;
+    hc_fetch_count += 1;
+    return hc_block(base + (which << level), high,
+                    texelFetch(hc_detail_tops, ivec2(texel % width, texel / width), 0).r);
+}
+
+vec2 hc_block_walls(hc_grid g, hc_block b)
+{
+    return vec2(hc_reaches(g.place.x, g.along.x, float(g.along.x > 0.0 ? b.high.x : b.low.x)),
+                hc_reaches(g.place.y, g.along.y, float(g.along.y > 0.0 ? b.high.y : b.low.y)));
+}
+
+/* To r, in the block or over its walls; never back. */
+ivec2 hc_block_cross(hc_grid g, hc_block b, float r)
+{
+    vec2  walls = hc_block_walls(g, b);
+    ivec2 there = ivec2(floor(g.place + r * g.along));
+    ivec2 ahead = min(max(g.cell, there), b.high - 1);
+    ivec2 back  = max(min(g.cell, there), b.low);
+    return ivec2(walls.x <= r ? (g.along.x > 0.0 ? b.high.x : b.low.x - 1)
+                 : g.along.x > 0.0 ? ahead.x : g.along.x < 0.0 ? back.x : g.cell.x,
+                 walls.y <= r ? (g.along.y > 0.0 ? b.high.y : b.low.y - 1)
+                 : g.along.y > 0.0 ? ahead.y : g.along.y < 0.0 ? back.y : g.cell.y);
+}
+
+/* Where the ray comes to the next wall of anything. clears: it does so above the blocks. */
+float hc_next_end(float r, out bool clears)
+{
+    vec2  walls = hc_grid_walls(hc_w.grids[HC_GROUND]);
+    vec3  gap   = hc_ground_gap(r);
+    float end   = min(hc_w.leave, min(walls.x, walls.y));
+    for (int i = 0; i < hc_detail_count; i++) {
+        if (!hc_w.grids[i].used) {
+            continue;
+        }
+        if (hc_w.level > 0) {
+            hc_block b = hc_block_of(i, hc_w.grids[i].cell);
+            walls      = hc_block_walls(hc_w.grids[i], b);
+            gap += hc_w.left * hc_detail_cut[i] * (1.0 - b.top)
+                   * hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], r);
+        } else {
+            walls = hc_grid_walls(hc_w.grids[i]);
+        }
+        end = min(end, min(walls.x, walls.y));
+    }
+    end         = max(end, r);
+    float reach = end - r;
+    clears      = min(gap.x, min(gap.x + 0.5 * reach * gap.y,
+                                 gap.x + reach * (gap.y + reach * gap.z))) > 0.0;
+    return end;
+}
+
+/* Over the walls at r. */
+void hc_cross_all(float r)
+{
+    for (int i = 0; i < hc_detail_count; i++) {
+        if (hc_w.grids[i].used && hc_w.level > 0) {
+            hc_block b           = hc_block_of(i, hc_w.grids[i].cell);
+            hc_w.grids[i].cell = hc_block_cross(hc_w.grids[i], b, r);
+        } else if (hc_w.grids[i].used) {
+            hc_grid_cross(hc_w.grids[i], r);
+        }
+    }
+    if (hc_grid_cross(hc_w.grids[HC_GROUND], r)) {
+        hc_choose_details(r);
+    }
+}
+
+/* From r to the first contact. HC_MISS: to where it has come out of the ground, or to the end.
+ * Blocks are walked as nodes of the pyramid are: up a level after each that the ray passes over,
+ * down a level where it may not. */
 float hc_walk_on(inout float r)
 {
     hc_w.emerged = false;
     for (int most = 0; most < 65536; most++) {
-        float zero;
-        float end = hc_w.leave;
-        for (int i = 0; i < HC_GRIDS; i++) {
-            vec2 walls = hc_grid_walls(hc_w.grids[i]);
-            end        = hc_w.grids[i].used ? min(end, min(walls.x, walls.y)) : end;
-        }
-        end = max(end, r);
+        bool  clears;
+        float end = hc_next_end(r, clears);
         hc_w.steps++;
-        vec4  rest = hc_detail_gap(r, zero);
-        float met  = hc_quartic_first(zero, rest, end - r);
-        if (met < HC_MISS || end >= hc_w.leave) {
-            return met < HC_MISS ? r + met : HC_MISS;
+        if (hc_w.level > 0 && !clears) {
+            hc_w.level--;
+            continue;
         }
-        r = end;
-        for (int i = 0; i < HC_GROUND; i++) {
-            if (hc_w.grids[i].used) {
-                hc_grid_cross(hc_w.grids[i], r);
+        if (hc_w.level == 0) {
+            float zero;
+            vec4  rest = hc_detail_gap(r, zero);
+            float met  = hc_quartic_first(zero, rest, end - r);
+            if (met < HC_MISS) {
+                return r + met;
             }
         }
-        if (hc_grid_cross(hc_w.grids[HC_GROUND], r)) {
-            hc_choose_details(r);
+        if (end >= hc_w.leave) {
+            return HC_MISS;
         }
+        r = end;
+        hc_cross_all(r);
+        hc_w.level = min(hc_w.level + 1, hc_detail_level_max);
         if (hc_ground_gap(r).x > HC_EMERGED) {
             hc_w.emerged = true;
             return HC_MISS;

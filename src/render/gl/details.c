@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 /* ---- textures -------------------------------------------------------------------------------- */
 
@@ -57,6 +58,31 @@ static hc_result load_maps(unsigned *texture, int unit, const hc_details *detail
     return result;
 }
 
+enum { TOPS_WIDE = 4096, LEVELS = 17 };
+
+/* All levels of all pyramids, one after another. */
+static hc_result load_tops(unsigned *texture, int unit, const hc_details *details, hc_log *log)
+{
+    size_t count = 0, used = 0;
+    for (int i = 0; i < details->count; i++) {
+        count += hc_pyramid_size(details->tops[i].width, details->tops[i].height);
+    }
+    const size_t rows   = (count + TOPS_WIDE - 1) / TOPS_WIDE;
+    float       *texels = calloc(rows, TOPS_WIDE * sizeof *texels);
+    if (texels == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for the tops of details");
+    }
+    for (int i = 0; i < details->count; i++) {
+        const size_t own = hc_pyramid_size(details->tops[i].width, details->tops[i].height);
+        memcpy(texels + used, details->tops[i].values, own * sizeof *texels);
+        used += own;
+    }
+    const hc_result result =
+        hc_upload_image(texture, unit, texels, TOPS_WIDE, (int)rows, 1, "tops of details", log);
+    free(texels);
+    return result;
+}
+
 hc_result hc_details_upload(unsigned textures[HC_DETAIL_UNITS], int unit, const hc_terrain *terrain,
                             hc_log *log)
 {
@@ -66,8 +92,11 @@ hc_result hc_details_upload(unsigned textures[HC_DETAIL_UNITS], int unit, const 
         result = hc_upload_bytes(&textures[0], unit, scene->mask, scene->mask_width,
                                  scene->mask_height, "mask", log);
     }
+    if (result == HC_OK && terrain->details.count > 0) {
+        result = load_maps(&textures[1], unit + 1, &terrain->details, log);
+    }
     return result == HC_OK && terrain->details.count > 0
-               ? load_maps(&textures[1], unit + 1, &terrain->details, log)
+               ? load_tops(&textures[2], unit + 2, &terrain->details, log)
                : result;
 }
 
@@ -95,12 +124,30 @@ static void set_map(unsigned program, const hc_terrain *terrain, int i)
     hc_upload_int(program, element(name, "hc_detail_colours", i), map->colour != NULL);
 }
 
+static void set_levels(unsigned program, const hc_details *details)
+{
+    size_t first = 0;
+    char   name[40];
+    for (int i = 0; i < details->count; i++) {
+        const hc_pyramid *tops = &details->tops[i];
+        hc_upload_int(program, element(name, "hc_detail_level_count", i), tops->levels);
+        for (int level = 0; level < tops->levels; level++) {
+            const float *values = hc_pyramid_level(tops, level, NULL, NULL);
+            hc_upload_int(program, element(name, "hc_detail_level_first", LEVELS * i + level),
+                          (int)(first + (size_t)(values - tops->values)));
+        }
+        first += hc_pyramid_size(tops->width, tops->height);
+    }
+    hc_upload_int(program, "hc_detail_level_max", details->level_max);
+}
+
 void hc_details_set_uniforms(unsigned program, int unit, const hc_terrain *terrain)
 {
     const hc_terrain_scene *scene = &terrain->scene;
     const hc_details       *d     = &terrain->details;
     hc_upload_int(program, "hc_mask", unit);
     hc_upload_int(program, "hc_details", unit + 1);
+    hc_upload_int(program, "hc_detail_tops", unit + 2);
     hc_upload_int(program, "hc_masked", scene->mask != NULL);
     hc_upload_int(program, "hc_detail_count", d->count);
     hc_upload_int(program, "hc_detail_steps", scene->detail_steps);
@@ -110,4 +157,5 @@ void hc_details_set_uniforms(unsigned program, int unit, const hc_terrain *terra
     for (int i = 0; i < d->count; i++) {
         set_map(program, terrain, i);
     }
+    set_levels(program, d);
 }

@@ -4,8 +4,8 @@
 
 #include "../terrain/terrain.h"
 
-/* Textures: of the mask, and of all maps beside each other. */
-enum { HC_DETAIL_UNITS = 2 };
+/* Textures: of the mask, of all maps beside each other, and of their tops. */
+enum { HC_DETAIL_UNITS = 3 };
 
 /* Load them, to units from `unit` on. */
 hc_result hc_details_upload(unsigned textures[HC_DETAIL_UNITS], int unit, const hc_terrain *terrain,

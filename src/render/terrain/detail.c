@@ -4,6 +4,7 @@
 #include "../check.h"
 #include "../vec.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 enum { STEPS = 32, STEPS_MAX = 65536, CHANNELS = 4 };
@@ -123,10 +124,74 @@ static void resolve(hc_details *details, const hc_terrain_scene *scene)
     }
 }
 
+/* ---- tops ------------------------------------------------------------------------------------ */
+
+static void fill_corners(float *tops, const hc_detail *map)
+{
+    for (int y = 0; y < map->height; y++) {
+        const float *upper = map->heights + (size_t)y * (size_t)map->width;
+        const float *lower = map->heights + (size_t)((y + 1) % map->height) * (size_t)map->width;
+        for (int x = 0; x < map->width; x++) {
+            const int right = (x + 1) % map->width;
+            *tops++         = fmaxf(fmaxf(upper[x], upper[right]), fmaxf(lower[x], lower[right]));
+        }
+    }
+}
+
+/* The last texel of an odd side's half takes the one left over, too. */
+static void fill_level(hc_pyramid *tops, int level)
+{
+    int          wide, high, fine_wide, fine_high;
+    float       *coarse = hc_pyramid_level(tops, level, &wide, &high);
+    const float *fine   = hc_pyramid_level(tops, level - 1, &fine_wide, &fine_high);
+    memset(coarse, 0, (size_t)wide * (size_t)high * sizeof *coarse); /* heights are 0 or more */
+    for (int y = 0; y < fine_high; y++) {
+        for (int x = 0; x < fine_wide; x++) {
+            const int row    = y / 2 < high ? y / 2 : high - 1;
+            const int column = x / 2 < wide ? x / 2 : wide - 1;
+            float    *top    = &coarse[(size_t)row * (size_t)wide + (size_t)column];
+            *top             = fmaxf(*top, fine[(size_t)y * (size_t)fine_wide + (size_t)x]);
+        }
+    }
+}
+
+static hc_result set_tops(hc_details *details, const hc_terrain_scene *scene, hc_log *log)
+{
+    const double wide = fmax(scene->spacing[0], scene->spacing[1]);
+    for (int i = 0; i < details->count; i++) {
+        const hc_detail *map  = &details->maps[i];
+        hc_pyramid      *tops = &details->tops[i];
+        *tops                 = (hc_pyramid){ .width  = map->width,
+                                              .height = map->height,
+                                              .levels = hc_pyramid_levels(map->width, map->height) };
+        tops->values = malloc(hc_pyramid_size(map->width, map->height) * sizeof *tops->values);
+        if (tops->values == NULL) {
+            return hc_fail(log, HC_ERROR_MEMORY, "no memory for a detail of %d x %d", map->width,
+                           map->height);
+        }
+        fill_corners(tops->values, map);
+        for (int level = 1; level < tops->levels; level++) {
+            fill_level(tops, level);
+            if (level > details->level_max && (1 << level) < wide * details->rate[i]) {
+                details->level_max = level;
+            }
+        }
+    }
+    return HC_OK;
+}
+
+void hc_details_free(hc_details *details)
+{
+    for (int i = 0; i < details->count; i++) {
+        free(details->tops[i].values);
+    }
+}
+
 hc_result hc_details_set(hc_terrain *terrain, hc_log *log)
 {
     CHECK(check_details(&terrain->scene, log));
     resolve(&terrain->details, &terrain->scene);
+    CHECK(set_tops(&terrain->details, &terrain->scene, log));
     terrain->scene.details = NULL; /* they may go */
     if (terrain->scene.detail_steps == 0) {
         terrain->scene.detail_steps = STEPS;

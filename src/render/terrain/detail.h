@@ -6,14 +6,19 @@
 
 /* Of a scene, defaults resolved. */
 typedef struct hc_details {
-    int       count; /* 0: there are none */
-    hc_detail maps[HC_DETAILS_MAX];
-    double    rate[HC_DETAILS_MAX];    /* texels per world unit      */
-    double    mean[HC_DETAILS_MAX][3]; /* of its colours             */
-    double    cut[HC_DETAILS_MAX];     /* depth in the field's heights */
-    double    texel; /* the smallest one, in the world; INFINITY: there are none */
-    double    fade[2];
+    int        count; /* 0: there are none */
+    hc_detail  maps[HC_DETAILS_MAX];
+    double     rate[HC_DETAILS_MAX];    /* texels per world unit      */
+    double     mean[HC_DETAILS_MAX][3]; /* of its colours             */
+    double     cut[HC_DETAILS_MAX];     /* depth in the field's heights */
+    double     texel; /* the smallest one, in the world; INFINITY: there are none */
+    double     fade[2];
+    hc_pyramid tops[HC_DETAILS_MAX]; /* highest corner of the patch right below and to the right of
+                                        each texel, and maxima above */
+    int        level_max;            /* blocks above it are larger than the ground's cells */
 } hc_details;
+
+void hc_details_free(hc_details *details);
 
 struct hc_terrain;
 

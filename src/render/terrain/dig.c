@@ -22,12 +22,19 @@ typedef struct grid {
     bool   used;
 } grid;
 
+typedef struct block {
+    int    low[2], high[2]; /* cells low .. high - 1 */
+    double top;             /* no patch in it is higher */
+} block;
+
 typedef struct walk {
     const hc_terrain *terrain;
     double            left;
     double            z, rise; /* in heights */
     grid              grids[GRIDS];
     hc_bilinear       shares[HC_DETAILS_MAX]; /* of the mask, in this cell of the ground */
+    int               level;                  /* of blocks of texels; 0: texels           */
+    block             blocks[HC_DETAILS_MAX]; /* that the ray is in, above level 0        */
     double            leave;                  /* t where the ray ends, or the field */
     uint32_t          steps;
     bool              emerged;
@@ -70,6 +77,51 @@ static bool cross(grid *g, double t)
         }
     }
     return crossed;
+}
+
+/* ---- blocks ---------------------------------------------------------------------------------- */
+
+static int block_span(block *b, int axis, int cell, int size, int level, int level_side)
+{
+    const int rest  = cell % size;
+    const int index = rest < 0 ? rest + size : rest;
+    const int which = index >> level < level_side ? index >> level : level_side - 1;
+    b->low[axis]    = cell - index + (which << level);
+    b->high[axis]   = cell - index + (which < level_side - 1 ? (which + 1) << level : size);
+    return which;
+}
+
+static block block_of(const grid *g, const hc_pyramid *tops, int level)
+{
+    int          wide, high;
+    const int    most   = level < tops->levels ? level : tops->levels - 1;
+    const float *values = hc_pyramid_level(tops, most, &wide, &high);
+    block        b;
+    const int    x = block_span(&b, 0, g->cell[0], tops->width, most, wide);
+    const int    y = block_span(&b, 1, g->cell[1], tops->height, most, high);
+    b.top          = (double)values[(size_t)y * (size_t)wide + (size_t)x];
+    return b;
+}
+
+static double block_wall(const grid *g, const block *b, int axis)
+{
+    const int next = g->along[axis] > 0.0 ? b->high[axis] : b->low[axis];
+    return g->along[axis] == 0.0 ? INFINITY : (next - g->place[axis]) * g->pace[axis];
+}
+
+/* To t, in the block or over its walls; never back. */
+static void cross_block(grid *g, const block *b, double t)
+{
+    for (int k = 0; k < 2; k++) {
+        const int there = (int)floor(place_at(g, k, t));
+        if (block_wall(g, b, k) <= t) {
+            g->cell[k] = g->along[k] > 0.0 ? b->high[k] : b->low[k] - 1;
+        } else if (g->along[k] > 0.0 && there > g->cell[k]) {
+            g->cell[k] = there < b->high[k] ? there : b->high[k] - 1;
+        } else if (g->along[k] < 0.0 && there < g->cell[k]) {
+            g->cell[k] = there > b->low[k] ? there : b->low[k];
+        }
+    }
 }
 
 /* Which details there are in the ground's cell. */
@@ -188,6 +240,28 @@ static void detail_gap(double gap[HC_QUARTIC], const walk *w, double t)
     }
 }
 
+/* Over a surface that is nowhere under that one in the blocks: is it above 0 from t to `end`? */
+static bool clears_blocks(const walk *w, double t, double end)
+{
+    const double reach = end - t;
+    double       gap[3];
+    ground_gap(gap, w, t);
+    for (int i = 0; i < w->terrain->details.count; i++) {
+        if (w->grids[i].used) {
+            const double deep = w->left * w->terrain->details.cut[i] * (1.0 - w->blocks[i].top);
+            double       share[3];
+            along_ray(share, &w->shares[i], &w->grids[GROUND], t);
+            for (int k = 0; k < 3; k++) {
+                gap[k] += deep * share[k];
+            }
+        }
+    }
+    return gap[0] > 0.0
+           && (!(reach > 0.0)
+               || (gap[0] + 0.5 * reach * gap[1] > 0.0
+                   && gap[0] + reach * (gap[1] + reach * gap[2]) > 0.0));
+}
+
 /* ---- safe ------------------------------------------------------------------------------------ */
 
 static void go_in(walk *w, double t)
@@ -196,6 +270,7 @@ static void go_in(walk *w, double t)
     for (int i = 0; i < GROUND; i++) {
         w->grids[i].used = false;
     }
+    w->level = 0;
     choose_details(w, t);
 }
 
@@ -203,7 +278,9 @@ static void go_in(walk *w, double t)
 static void cross_all(walk *w, double t)
 {
     for (int i = 0; i < GROUND; i++) {
-        if (w->grids[i].used) {
+        if (w->grids[i].used && w->level > 0) {
+            cross_block(&w->grids[i], &w->blocks[i], t);
+        } else if (w->grids[i].used) {
             (void)cross(&w->grids[i], t);
         }
     }
@@ -212,25 +289,48 @@ static void cross_all(walk *w, double t)
     }
 }
 
+/* Where the ray comes to the next wall of anything. */
+static double next_end(walk *w)
+{
+    double end = fmin(w->leave, next_wall(&w->grids[GROUND]));
+    for (int i = 0; i < w->terrain->details.count; i++) {
+        const grid *g = &w->grids[i];
+        if (g->used && w->level > 0) {
+            w->blocks[i] = block_of(g, &w->terrain->details.tops[i], w->level);
+            end = fmin(end, fmin(block_wall(g, &w->blocks[i], 0), block_wall(g, &w->blocks[i], 1)));
+        } else if (g->used) {
+            end = fmin(end, next_wall(g));
+        }
+    }
+    return end;
+}
+
 /* From *t to the first contact. INFINITY: to where it has come out of the ground (w->emerged), or to
- * the end. */
+ * the end. Blocks are walked as nodes of the pyramid are (maxmip): up a level after each that the ray
+ * passes over, down a level where it may not. */
 static double walk_on(walk *w, double *t)
 {
     for (w->emerged = false;;) {
-        double gap[HC_QUARTIC], above[3];
-        double end = w->leave;
-        for (int i = 0; i < GRIDS; i++) {
-            end = w->grids[i].used ? fmin(end, next_wall(&w->grids[i])) : end;
-        }
-        end = fmax(end, *t);
+        double       gap[HC_QUARTIC], above[3];
+        const double end = fmax(next_end(w), *t);
         w->steps++;
-        detail_gap(gap, w, *t);
-        const double met = hc_quartic_first(gap, end - *t);
-        if (met < INFINITY || end >= w->leave) {
-            return *t + met;
+        if (w->level > 0 && !clears_blocks(w, *t, end)) {
+            w->level--;
+            continue;
+        }
+        if (w->level == 0) {
+            detail_gap(gap, w, *t);
+            const double met = hc_quartic_first(gap, end - *t);
+            if (met < INFINITY) {
+                return *t + met;
+            }
+        }
+        if (end >= w->leave) {
+            return INFINITY;
         }
         *t = end;
         cross_all(w, end);
+        w->level += w->level < w->terrain->details.level_max ? 1 : 0;
         ground_gap(above, w, end);
         if (above[0] > EMERGED) {
             w->emerged = true;

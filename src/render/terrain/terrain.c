@@ -147,6 +147,7 @@ void hc_terrain_destroy(hc_terrain *terrain)
         hc_tracer_destroy(terrain->tracer);
         hc_tracer_destroy(terrain->exact);
         hc_sunview_free(&terrain->sunview);
+        hc_details_free(&terrain->details);
         hc_bodies_destroy(terrain->bodies);
         free(terrain->colours);
         free(terrain);
