@@ -15,7 +15,8 @@ typedef struct hc_bench_row {
     int         runs; /* 0: it would take too long, and there are no seconds               */
     double      processor_seconds;         /* of one run, all threads; the median          */
     double      seconds, fastest, slowest; /* of one run; `seconds` is the median          */
-    double      expected;   /* seconds of a run that was stopped, by what was done; 0: none was */
+    double      expected;   /* of a run that was stopped, by what was done; INFINITY: nothing was;
+                             0: none was stopped                                           */
     double      peak_bytes; /* input + output + work; 0: not known                      */
     double      memory_factor; /* peak / (input + output); 0: not known                    */
     /* Of ratios; NAN: not known, or of no meaning. Both ratios at most 1, since they are infinite

@@ -60,8 +60,9 @@ static size_t output_floats(const gpu_case *c, int side)
 
 typedef struct watch {
     const hc_progress *progress;
-    double             start, limit;
-    double             expected; /* 0: not stopped */
+    double             limit;
+    double             start, first; /* `first` was done at the start: loading is no part of that */
+    double             expected;     /* 0: not stopped */
 } watch;
 
 static double now(void)
@@ -71,16 +72,23 @@ static double now(void)
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
 }
 
-/* After a second what was done says how long the rest will take, within a factor of 4. */
+/* After a tenth of the limit what was done, if anything was, says how long the rest will take,
+ * within a factor of 4. */
 static bool go_on(void *user, double fraction)
 {
-    watch       *w    = user;
-    const double gone = now() - w->start;
+    watch *w = user;
     if (w->progress->report != NULL && !w->progress->report(w->progress->user, fraction)) {
         return false;
     }
-    if (gone > w->limit || (gone > 1.0 && gone > 4.0 * w->limit * fraction)) {
-        w->expected = gone / fmax(fraction, 1e-9);
+    if (w->start == 0.0) {
+        w->start = now();
+        w->first = fraction;
+    }
+    const double gone = now() - w->start;
+    const double all  = fraction > w->first ? gone / (fraction - w->first) : INFINITY;
+    const bool   slow = gone > 0.1 * w->limit && isfinite(all) && all > 4.0 * w->limit;
+    if (slow || gone > w->limit) {
+        w->expected = all;
     }
     return w->expected == 0.0;
 }
@@ -94,7 +102,7 @@ static hc_result run_once(const hc_bench_options *options, const gpu_case *c, wa
                                    .method   = c->method,
                                    .progress = { .report = go_on, .user = w } };
     hc_pyramid            pyramid;
-    w->start = now();
+    w->start = 0.0;
     return is_pyramid(c) ? hc_gpu_bake_pyramid(options->gpu, &pyramid, output, field->heights,
                                                field->width, field->height, HC_MAXIMUM, log)
                          : hc_gpu_bake_cone_map(options->gpu, output, field, &cone, log);

@@ -74,11 +74,11 @@ static hc_result run_rows(const hc_gpu_baking *b, unsigned program, bool pruned)
 {
     const int most   = HC_GPU_WAITING_MAX / least(b->job->width, HC_GPU_WAITING_MAX);
     hc_result result = HC_OK;
-    int       rows   = ROWS_AT_FIRST;
+    int       rows   = least(ROWS_AT_FIRST, most);
     for (int y = 0; y < b->job->height && result == HC_OK;) {
         const int first[2] = { 0, y };
-        const int end[2]   = { b->job->width, least(y + least(rows, most), b->job->height) };
-        rows               = paced(rows, hc_gpu_run(b->gpu, program, first, end));
+        const int end[2]   = { b->job->width, least(y + rows, b->job->height) };
+        rows               = least(paced(rows, hc_gpu_run(b->gpu, program, first, end)), most);
         result             = hc_gl_check("baking", b->job->log);
         if (result == HC_OK && pruned) {
             result = go_on(b, program, y, end[1]);

@@ -155,7 +155,9 @@ static void say_row(hc_cli_bench *bench, const hc_bench_row *row)
     (void)number_or_nothing(share, sizeof share, 3, 100.0 * row->wider_share);
     hc_cli_say(bench->cli, "%-10s %5d %-18s %-5s %7d %4d ", row->field, row->side, row->method,
                row->cones == NULL ? "" : row->cones, row->threads, row->runs);
-    if (row->runs == 0) {
+    if (row->runs == 0 && isinf(row->expected)) {
+        hc_cli_say(bench->cli, "stopped before anything was done\n");
+    } else if (row->runs == 0) {
         hc_cli_say(bench->cli, "stopped: would take about %.0f s\n", row->expected);
     } else {
         hc_cli_say(bench->cli, "%10.4g %9.2f %6.2f %7s %7s %8s %6s\n", row->seconds,
