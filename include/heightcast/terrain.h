@@ -68,7 +68,8 @@ typedef struct hc_detail {
     const float *heights; /* width * height, row-major, row 0 north  [0 .. 1]                    */
     const float *colour;  /* likewise * 3, linear light, or NULL: it leaves the ground's         */
     int          width, height;
-    double       tile;  /* world units across it, from west to east  [>= 0]  0: 16 samples       */
+    double       tile;  /* world units across it, from west to east  [>= 0]  0: 16 samples. The
+                             terrain is at most 2^24 texels wide                                  */
     double       depth; /* world units, times the exaggeration  [>= 0]       0: a 16th of `tile` */
 } hc_detail;
 

@@ -399,6 +399,9 @@ static void bad_details(void **state)
     scene           = detailed(details, hills);
     details[1].tile = NAN;
     refuse_as(&scene, HC_ERROR_ARGUMENT, "detail 1 has a tile of nan");
+    scene           = detailed(details, hills);
+    details[1].tile = 1e-5;
+    refuse_as(&scene, HC_ERROR_ARGUMENT, "detail 1 has a tile of 1e-05; the terrain is 320 wide");
     scene              = detailed(details, hills);
     details[2].heights = high;
     details[2].width = details[2].height = 2;

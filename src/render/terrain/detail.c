@@ -13,6 +13,7 @@ static const double SAMPLES_WIDE = 16.0; /* a tile */
 static const double FLATNESS     = 16.0; /* its width over its depth */
 static const double FADE[2]      = { 24.0, 48.0 };
 static const double FARTHEST     = 1e12;
+static const double TEXELS_MAX   = 0x1p24;
 
 const char *hc_detail_method_name(hc_detail_method method)
 {
@@ -187,10 +188,25 @@ void hc_details_free(hc_details *details)
     }
 }
 
+/* Texels are counted across the whole terrain. */
+static hc_result check_count(const hc_terrain *terrain, hc_log *log)
+{
+    for (int i = 0; i < terrain->details.count; i++) {
+        if (!(terrain->details.rate[i] * terrain->side < TEXELS_MAX)) {
+            return hc_fail(log, HC_ERROR_ARGUMENT,
+                           "detail %d has a tile of %g; the terrain is %g wide, and has at most "
+                           "2^24 of its texels side by side",
+                           i, terrain->details.maps[i].tile, terrain->side);
+        }
+    }
+    return HC_OK;
+}
+
 hc_result hc_details_set(hc_terrain *terrain, hc_log *log)
 {
     CHECK(check_details(&terrain->scene, log));
     resolve(&terrain->details, &terrain->scene);
+    CHECK(check_count(terrain, log));
     CHECK(set_tops(&terrain->details, &terrain->scene, log));
     terrain->scene.details = NULL; /* they may go */
     if (terrain->scene.detail_steps == 0) {
