@@ -389,7 +389,7 @@ static bool stop_at_once(void *user, double done)
 static void drawing_can_be_stopped(void **state)
 {
     (void)state;
-    const hc_terrain_scene  scene   = scene_of(hills);
+    const hc_terrain_scene scene = scene_of(hills);
     /* On several threads all may be drawn before the calling one is asked. */
     const hc_render_options options = { .threads = 1, .progress = { .report = stop_at_once } };
     hc_terrain             *t       = make(&scene, &options);
