@@ -145,7 +145,9 @@ HC_API bool hc_trace_nearest(const hc_tracer *tracer, hc_hit *hit, const hc_ray 
 HC_API bool hc_trace_any(const hc_tracer *tracer, const hc_ray *ray);
 
 /* The same for `count` rays, in the calling thread. Rays that lie side by side in the picture
- * should lie side by side in memory; hits are those of the single-ray functions, bit for bit.
+ * should lie side by side in memory; hits are those of the single-ray functions, bit for bit, but
+ * for steps and crossings of `fast`: it takes sixteen rays in a row that start in nearly one place
+ * and go in nearly one direction as one beam first, and counts what each does on its own.
  * any: 1 or 0 per ray. */
 HC_API void hc_trace_nearest_many(const hc_tracer *tracer, hc_hit *hits, const hc_ray *rays,
                                   size_t count);

@@ -5,6 +5,7 @@
  * hc_v_max(a, b)     a > b ? a : b in every lane: of equal zeros, and of NaN, it is b. min likewise
  * hc_v_greater       bit i: a > b in lane i
  * hc_v_keep          a where the bit is set, 0 elsewhere
+ * hc_v_lowest        of all lanes
  * hc_v_about_muladd  a * b + c, fused or not: for bounds with a margin, never for results
  * hc_v_about_rsqrt   at most 1 / the square root of a >= 2^-60, and at least (1 - 2^-9) of it
  * hc_v_about_over    at most a / b and at least (1 - 2^-9) of it; a >= 0, b > 2^-100
@@ -40,6 +41,12 @@ static inline hc_i hc_v_bits(hc_v a)
     hc_i bits;
     memcpy(&bits, &a, sizeof bits);
     return bits;
+}
+
+static inline float hc_v_highest(hc_v a)
+{
+    const hc_v zero = hc_v_set(0.0F);
+    return -hc_v_lowest(hc_v_sub(zero, a));
 }
 
 /* At most the square root of a >= 0, and at least (1 - 2^-9) of it. */

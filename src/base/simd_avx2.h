@@ -78,6 +78,14 @@ static inline unsigned hc_v_greater(hc_v x, hc_v y)
     return (unsigned)low | (unsigned)high << 8;
 }
 
+static inline float hc_v_lowest(hc_v x)
+{
+    const __m256 eight = _mm256_min_ps(x.a, x.b);
+    const __m128 four  = _mm_min_ps(_mm256_castps256_ps128(eight), _mm256_extractf128_ps(eight, 1));
+    const __m128 two   = _mm_min_ps(four, _mm_movehl_ps(four, four));
+    return _mm_cvtss_f32(_mm_min_ss(two, _mm_shuffle_ps(two, two, 1)));
+}
+
 static inline __m256 hc_v_keep8(unsigned lanes, __m256 x)
 {
     const __m256i bit = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);

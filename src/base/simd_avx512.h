@@ -65,6 +65,11 @@ static inline unsigned hc_v_greater(hc_v a, hc_v b)
     return _mm512_cmp_ps_mask(a, b, _CMP_GT_OQ);
 }
 
+static inline float hc_v_lowest(hc_v a)
+{
+    return _mm512_reduce_min_ps(a);
+}
+
 static inline hc_v hc_v_keep(unsigned lanes, hc_v a)
 {
     return _mm512_maskz_mov_ps((__mmask16)lanes, a);

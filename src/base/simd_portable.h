@@ -73,6 +73,16 @@ static inline unsigned hc_v_greater(hc_v a, hc_v b)
     return lanes;
 }
 
+static inline float hc_v_lowest(hc_v a)
+{
+    const hc_quarter two  = hc_choose(a.q[0] < a.q[1], a.q[0], a.q[1]);
+    const hc_quarter more = hc_choose(a.q[2] < a.q[3], a.q[2], a.q[3]);
+    const hc_quarter all  = hc_choose(two < more, two, more);
+    const float      low  = all[0] < all[1] ? all[0] : all[1];
+    const float      high = all[2] < all[3] ? all[2] : all[3];
+    return low < high ? low : high;
+}
+
 static inline hc_v hc_v_keep(unsigned lanes, hc_v a)
 {
     float kept[HC_LANES];

@@ -19,6 +19,14 @@ typedef struct trials {
 
 enum { TRIAL_WORDS = offsetof(trials, from) / (2 * HC_LANES * sizeof(int32_t)) };
 
+/* Sixteen of them, or lanes that have stopped: the cells, and where the rays are known to be in the
+ * open, at s from t. */
+typedef struct question {
+    const int32_t *cell_x, *cell_y;
+    const float   *s;
+    const double  *from;
+} question;
+
 /* What is found out about them. Neither hit nor clear: it could not be told. */
 typedef struct verdict {
     double  t[HC_LANES];
@@ -126,7 +134,7 @@ static inline unsigned next_cells(const hc_fast *fast, const batch *b, const tes
  * It goes on a hair behind the wall: there the ray rises faster than the ground, or what the
  * marching allows for rounding is more than the ground rises. Where the hair might hold a whole
  * cell, near a corner, nothing is told. */
-static inline void test_next(const hc_fast *fast, const batch *b, const trials *c,
+static inline void test_next(const hc_fast *fast, const batch *b, const question *c,
                              const test *first, verdict *v)
 {
     test           next;
@@ -148,7 +156,8 @@ static inline void test_next(const hc_fast *fast, const batch *b, const trials *
     }
 }
 
-static inline void decide_cells(const hc_fast *fast, const batch *b, const trials *c, verdict *v)
+static inline void decide_cells(const hc_fast *fast, const batch *b, const question *c,
+                                unsigned lanes, verdict *v)
 {
     test    first;
     double  begin[HC_LANES];
@@ -157,14 +166,15 @@ static inline void decide_cells(const hc_fast *fast, const batch *b, const trial
         begin[i] = c->from[i] * b->run[i] + (double)c->s[i];
     }
     test_cells(fast, b, c->cell_x, c->cell_y, begin, &first);
+    memset(v->clear, 0, sizeof v->clear);
     memcpy(v->t, first.t, sizeof v->t);
     memcpy(v->hit, first.hit, sizeof v->hit);
     memcpy(v->cell_x, c->cell_x, sizeof v->cell_x);
     memcpy(v->cell_y, c->cell_y, sizeof v->cell_y);
     for (int i = 0; i < HC_LANES; i++) {
-        any_open |= first.open[i];
+        any_open |= first.open[i] & (int32_t)(lanes >> i);
     }
-    if (any_open != 0) {
+    if ((any_open & 1) != 0) {
         test_next(fast, b, c, &first, v);
     }
     place_hits(v->u, &fast->x, b->origin[0], b->direction[0], v->t);

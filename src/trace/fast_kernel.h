@@ -2,25 +2,50 @@
  * set, with HC_FAST_KERNEL the name of what it defines.
  *
  * A lane that is done takes the next ray. What a look at a patch leaves open goes to the trials,
- * which are decided together; where the outcome is all but sure the lane does not wait for it. */
+ * which are decided together; where the outcome is all but sure the lane does not wait for it. The
+ * rays of a beam stay together instead, and are decided where they stand. */
 #include "fast_queue.h"
 
 /* Lanes to gather before they are looked at together, and before they take new rays. */
-enum { NEAR_MIN = 6, DONE_MIN = 4 };
+enum { NEAR_MIN = 6, NEAR_MIN_GROUP = 3, DONE_MIN = 4 };
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
+
+/* Give a pack without rays those of a group, from where their beam has come to. */
+static void load_group(job *j, pack *p)
+{
+    const int    k     = j->next_group++;
+    const group *g     = j->waiting[k];
+    const hc_v   ahead = hc_v_sub(hc_v_set(j->beams.s[k]), hc_v_load(g->s));
+    p->ray             = g->ray;
+    memcpy(p->from, g->b.from, sizeof p->from);
+    hc_v_store(p->s, hc_v_keep(g->lanes, hc_v_max(ahead, hc_v_set(0.0F))));
+    hc_i_store(p->level, hc_i_set(j->beams.level[k]));
+    p->active = g->lanes;
+    p->group  = g;
+}
 
 /* Give lanes of a pack rays from the queue. */
 static void refill(job *j, pack *p, unsigned idle)
 {
+    if (p->group != NULL) {
+        j->used &= ~(1U << (p->group - j->groups));
+        p->group = NULL;
+    }
     while (idle != 0) {
         if (j->next == j->queued) {
             j->next   = 0;
             j->queued = 0;
             if (j->left_count > 0) {
                 enqueue_left(j);
+            } else if (j->next_group < j->group_count) {
+                if (p->active == 0) {
+                    load_group(j, p);
+                }
+                return;
             } else if (j->taken < j->count) {
-                enqueue_new(j);
+                take_new(j);
+                continue;
             } else {
                 return;
             }
@@ -68,30 +93,30 @@ static void end_segments(job *j, pack *p, unsigned ended)
 
 /* ---- deciding -------------------------------------------------------------------------------- */
 
-/* A trial that was not told: walk over the cells in question. False: that hits nothing. */
-static bool walk_trial(const job *j, const hc_fast_ray *r, int i)
+/* What could not be told: walk over the cells from s on. False: that hits nothing. */
+static bool walk_cells(const job *j, const hc_fast_ray *r, const leftover *from, float s,
+                       float span)
 {
-    const trials *c   = &j->trials;
-    const double  run = hc_fast_run(r);
+    const double run = hc_fast_run(r);
     /* On steps a lane that cut a corner may have left out the cell that it cut. */
-    const double  back = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
-    const double  from = c->from[i] + ((double)c->s[i] - back) / run;
-    const double  to   = c->from[i] + (double)(c->s[i] + c->span[i]) / run; /* as the lane counts */
+    const double  back  = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
+    const double  first = from->t + ((double)s - back) / run;
+    const double  last  = from->t + (double)(s + span) / run; /* as the lane counts */
     hc_fast_found found;
-    const bool    hit = hc_fast_walk(j->fast, r, &found, from, to);
+    const bool    hit = hc_fast_walk(j->fast, r, &found, first, last);
     if (hit) {
-        answer_hit(j, c->which[i], r, &found, c->steps[i], c->crossings[i]);
+        answer_hit(j, from->which, r, &found, from->steps, from->crossings);
     }
     return hit;
 }
 
-/* The answers to trials that hit. */
-static void answer_trials(const job *j, const verdict *v, unsigned hits)
+/* The answers to those in question that hit. */
+static void answer_hits(const job *j, const verdict *v, unsigned hits, const int32_t *which,
+                        const int32_t *steps, const int32_t *crossings)
 {
-    const trials *c = &j->trials;
-    float         columns[HC_ROW_WORDS][HC_LANES];
-    float         rows[HC_LANES][HC_ROW_WORDS]; /* hc_hit but for its last word */
-    const hc_i    none = hc_i_set(0);
+    float      columns[HC_ROW_WORDS][HC_LANES];
+    float      rows[HC_LANES][HC_ROW_WORDS]; /* hc_hit but for its last word */
+    const hc_i none = hc_i_set(0);
     for (int i = 0; i < HC_LANES; i++) {
         columns[0][i] = (float)v->t[i];
     }
@@ -103,13 +128,23 @@ static void answer_trials(const job *j, const verdict *v, unsigned hits)
     hc_v_store(columns[4], hc_v_of_bits(x));
     hc_v_store(columns[5], hc_v_of_bits(y));
     hc_v_store(columns[6], hc_v_of_bits(none)); /* flags */
-    memcpy(columns[7], c->steps, sizeof columns[7]);
+    memcpy(columns[7], steps, sizeof columns[7]);
     hc_rows(rows, columns);
     for (; hits != 0; hits &= hits - 1) {
         const int i   = __builtin_ctz(hits);
-        hc_hit   *hit = &j->answer.hits[c->which[i]];
+        hc_hit   *hit = &j->answer.hits[which[i]];
         memcpy(hit, rows[i], sizeof rows[i]);
-        hit->crossings = (uint32_t)c->crossings[i];
+        hit->crossings = (uint32_t)crossings[i];
+    }
+}
+
+static void answer_found(const job *j, const verdict *v, unsigned hits, const int32_t *which,
+                         const int32_t *steps, const int32_t *crossings)
+{
+    if (j->answer.any != NULL) {
+        answer_any(j, which, hits);
+    } else if (hits != 0) {
+        answer_hits(j, v, hits, which, steps, crossings);
     }
 }
 
@@ -118,9 +153,10 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
     const trials *c   = &j->trials;
     bool          hit = v->hit[i] != 0;
     if (!hit && v->clear[i] == 0) {
-        hc_fast_ray r;
+        hc_fast_ray    r;
+        const leftover from = { c->which[i], c->steps[i], c->crossings[i], c->from[i] };
         (void)take_ray(&r, j->fast, b, i, &j->rays[c->which[i]]);
-        hit = walk_trial(j, &r, i);
+        hit = walk_cells(j, &r, &from, c->s[i], c->span[i]);
     }
     const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
     if (c->lane[i] >= 0) {
@@ -160,6 +196,11 @@ static unsigned waiting(const trials *c)
     return lanes;
 }
 
+static unsigned find_set(const int32_t *flags)
+{
+    return hc_i_differ(hc_i_load(flags), hc_i_set(0));
+}
+
 static void decide(job *j)
 {
     trials   *c     = &j->trials;
@@ -173,19 +214,12 @@ static void decide(job *j)
     }
     prepare(&b, j->fast, j->rays, c->which);
     if (j->plain) {
-        decide_cells(j->fast, &b, c, &v);
+        const question what = { c->cell_x, c->cell_y, c->s, c->from };
+        decide_cells(j->fast, &b, &what, ALL_LANES, &v);
     }
-    unsigned hits = 0;
-    unsigned rest = ALL_LANES >> (HC_LANES - count);
-    for (int i = 0; i < HC_LANES; i++) {
-        hits |= (unsigned)(v.hit[i] != 0) << i;
-    }
-    hits &= rest;
-    if (j->answer.any != NULL) {
-        answer_any(j, c->which, hits);
-    } else if (hits != 0) {
-        answer_trials(j, &v, hits);
-    }
+    unsigned       rest = ALL_LANES >> (HC_LANES - count);
+    const unsigned hits = find_set(v.hit) & rest;
+    answer_found(j, &v, hits, c->which, c->steps, c->crossings);
     rest &= ~(hits & ~waiting(c)); /* others run on those lanes by now */
     for (; rest != 0; rest &= rest - 1) {
         settle(j, &b, &v, __builtin_ctz(rest));
@@ -215,6 +249,45 @@ static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lane
     c->count = n + __builtin_popcount(lanes);
 }
 
+/* The lanes of a group that wait, on their own. */
+static void decide_group(job *j, pack *p)
+{
+    const batch   *b    = &p->group->b;
+    const question what = { p->cell_x, p->cell_y, p->s, p->from };
+    verdict        v;
+    decide_cells(j->fast, b, &what, p->held, &v);
+    unsigned       hits  = find_set(v.hit) & p->held;
+    const unsigned clear = find_set(v.clear) & p->held & ~hits;
+    answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings);
+    for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
+        const int      i    = __builtin_ctz(rest);
+        const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], p->from[i] };
+        hc_fast_ray    r;
+        (void)take_ray(&r, j->fast, b, i, &j->rays[from.which]);
+        hits |= (unsigned)walk_cells(j, &r, &from, p->s[i], p->span[i]) << i;
+    }
+    const unsigned on    = p->held & ~hits;
+    const hc_v     s     = hc_v_load(p->s);
+    const hc_v     next  = hc_v_pick(clear, hc_v_load(v.s), hc_v_add(s, hc_v_load(p->span)));
+    const hc_i     moves = hc_i_load(p->ray.crossings);
+    hc_v_store(p->s, hc_v_pick(on, next, s));
+    hc_i_store(p->ray.crossings, hc_i_pick(on, hc_i_add(moves, hc_i_set(1)), moves));
+    p->active &= ~hits;
+    p->held = 0;
+}
+
+/* Lanes of a group wait until none goes on. */
+static void hold(pack *p, const sight *seen, unsigned lanes)
+{
+    const hc_i x    = hc_i_pick(lanes, hc_i_load(seen->cell_x), hc_i_load(p->cell_x));
+    const hc_i y    = hc_i_pick(lanes, hc_i_load(seen->cell_y), hc_i_load(p->cell_y));
+    const hc_v span = hc_v_pick(lanes, hc_v_load(seen->span), hc_v_load(p->span));
+    hc_i_store(p->cell_x, x);
+    hc_i_store(p->cell_y, y);
+    hc_v_store(p->span, span);
+    p->held |= lanes;
+}
+
 /* The lanes of a pack that stand on single cells. */
 static void see_near(job *j, pack *p)
 {
@@ -227,6 +300,10 @@ static void see_near(job *j, pack *p)
     const hc_i moves = hc_i_load(p->ray.crossings);
     hc_i_store(p->ray.crossings, hc_i_pick(seen.clear, hc_i_add(moves, hc_i_set(1)), moves));
     p->near = seen.clear & hc_v_greater(hc_v_load(p->until), ahead);
+    if (p->group != NULL) {
+        hold(p, &seen, lanes & ~seen.clear);
+        return;
+    }
     if (j->answer.any != NULL) {
         answer_any(j, p->ray.which, seen.below);
         p->active &= ~seen.below;
@@ -257,12 +334,16 @@ static inline void see_to(job *j, pack *p)
         p->near &= ~ended;
         end_segments(j, p, ended);
     }
-    const unsigned ready = p->active & ~p->held;
-    if (__builtin_popcount(p->near) >= NEAR_MIN || (p->near != 0 && p->near == ready)) {
+    const unsigned ready  = p->active & ~p->held;
+    const int      enough = p->group != NULL ? NEAR_MIN_GROUP : NEAR_MIN;
+    if (__builtin_popcount(p->near) >= enough || (p->near != 0 && p->near == ready)) {
         see_near(j, p);
     }
+    if (p->group != NULL && p->held != 0 && p->held == p->active) {
+        decide_group(j, p);
+    }
     const unsigned idle = ~p->active & ALL_LANES;
-    if (__builtin_popcount(idle) >= DONE_MIN) {
+    if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN)) {
         refill(j, p, idle);
     }
 }
@@ -297,11 +378,18 @@ static void start(job *j)
     j->next         = 0;
     j->left_count   = 0;
     j->trials.count = 0;
+    j->group_count  = 0;
+    j->next_group   = 0;
+    j->used         = 0;
+    memset(&j->beams, 0, sizeof j->beams);
     for (int k = 0; k < PACKS; k++) {
         pack *p   = &j->packs[k];
         p->active = 0;
         p->near   = 0;
         p->held   = 0;
+        p->group  = NULL;
+        memset(p->cell_x, 0, sizeof p->cell_x);
+        memset(p->cell_y, 0, sizeof p->cell_y);
         memset(p->level, 0, sizeof p->level);
         memset(p->ray.quadrant, 0, sizeof p->ray.quadrant);
     }

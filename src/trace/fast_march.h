@@ -27,6 +27,8 @@ typedef struct runners {
 
 enum { RUNNER_WORDS = sizeof(runners) / (HC_LANES * sizeof(int32_t)) };
 
+typedef struct group group;
+
 typedef struct pack {
     runners  ray;
     double   from[HC_LANES], next[HC_LANES]; /* t at the segment's start and end */
@@ -36,6 +38,12 @@ typedef struct pack {
     unsigned active; /* lanes with a ray                        */
     unsigned near;   /* of them: waiting on a cell to be looked at */
     unsigned held;   /* of them: waiting to be decided          */
+
+    /* Whose rays these are: then they keep their lanes until all are done, and where they wait is
+     * kept here. NULL: rays of any kind, which are replaced one by one. */
+    const group *group;
+    int32_t      cell_x[HC_LANES], cell_y[HC_LANES];
+    float        span[HC_LANES];
 } pack;
 
 typedef struct place {

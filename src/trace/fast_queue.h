@@ -5,8 +5,8 @@
 #ifndef HC_TRACE_FAST_QUEUE_H
 #define HC_TRACE_FAST_QUEUE_H
 
+#include "fast_beams.h"
 #include "fast_decide.h"
-#include "fast_march.h"
 
 #include <math.h>
 
@@ -36,6 +36,11 @@ typedef struct job {
     leftover       left[LEFT_MAX];
     int            left_count;
     pack           packs[PACKS];
+    group          groups[HC_LANES + PACKS]; /* of beams and in packs */
+    unsigned       used;                     /* of the groups         */
+    beams          beams;
+    group         *waiting[HC_LANES]; /* whose beams have been marched */
+    int            group_count, next_group;
 } job;
 
 /* ---- answers --------------------------------------------------------------------------------- */
@@ -206,20 +211,28 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
     }
 }
 
-/* A batch in the lanes' coordinates. Returns those that are to be marched. */
-static unsigned turn_batch(const hc_fast *fast, const batch *b, runners *q)
+/* Rays to be marched, others than those to be walked. */
+static unsigned find_marched(const batch *b)
+{
+    float good[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        const double way = (b->to[i] - b->from[i]) * b->run[i];
+        good[i]          = ((b->meets[i] != 0) & (way >= MARCH_FROM)) ? 1.0F : 0.0F;
+    }
+    return hc_v_greater(hc_v_load(good), hc_v_set(0.0F));
+}
+
+/* A batch in the lanes' coordinates. */
+static void turn_batch(runners *q, const hc_fast *fast, const batch *b)
 {
     float *const   at[2]    = { q->x, q->y };
     float *const   rate[2]  = { q->dx, q->dy };
     float *const   over[2]  = { q->rx, q->ry };
     int32_t *const ahead[2] = { q->ahead_x, q->ahead_y };
     double         scale[HC_LANES];
-    float          good[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
-        const double way = (b->to[i] - b->from[i]) * b->run[i];
-        scale[i]         = 1.0 / b->run[i];
-        q->end[i]        = (float)way + 2.0F * fast->blur;
-        good[i]          = ((b->meets[i] != 0) & (way >= MARCH_FROM)) ? 1.0F : 0.0F;
+        scale[i]  = 1.0 / b->run[i];
+        q->end[i] = (float)((b->to[i] - b->from[i]) * b->run[i]) + 2.0F * fast->blur;
     }
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < HC_LANES; i++) {
@@ -238,40 +251,108 @@ static unsigned turn_batch(const hc_fast *fast, const batch *b, runners *q)
         q->steps[i]     = 0;
         q->crossings[i] = 0;
     }
-    return hc_v_greater(hc_v_load(good), hc_v_set(0.0F));
 }
 
-static void enqueue_new(job *j)
+/* A group's rays, for any lanes. */
+static void enqueue_group(job *j, const group *g)
 {
-    int32_t        which[HC_LANES];
-    batch          b;
-    const int      left  = j->count - j->taken;
-    const int      count = left < HC_LANES ? left : HC_LANES;
-    const unsigned all   = ALL_LANES >> (HC_LANES - count);
-    for (int i = 0; i < HC_LANES; i++) {
-        which[i] = j->taken + (i < count ? i : 0);
-    }
-    j->taken += count;
-    prepare(&b, j->fast, j->rays, which);
-    if (!j->plain) {
-        enqueue_one_by_one(j, &b, which, all);
-        return;
-    }
-    runners        made;
-    const bool     any         = j->answer.any != NULL && !j->fast->sparse;
-    const unsigned long_enough = turn_batch(j->fast, &b, &made) & all;
-    const unsigned sure        = any ? probe(j->fast, &made, long_enough) : 0;
-    const unsigned marched     = long_enough & ~sure;
-    answer_any(j, which, sure);
-    memcpy(made.which, which, sizeof which);
     for (int k = 0; k < RUNNER_WORDS; k++) {
-        hc_pack_words((char *)&j->queue + k * (int)sizeof which, marched,
-                      (const char *)&made + k * (int)sizeof which);
+        const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
+        hc_pack_words((char *)&j->queue + row, g->lanes, (const char *)&g->ray + row);
     }
-    hc_pack_doubles(j->queue_from, marched, b.from);
-    j->queued = __builtin_popcount(marched);
-    if (long_enough != all) {
-        enqueue_one_by_one(j, &b, which, all & ~long_enough);
+    hc_pack_doubles(j->queue_from, g->lanes, g->b.from);
+    j->queued = __builtin_popcount(g->lanes);
+}
+
+/* True if all lanes are of one sign, and none is 0. */
+static bool agree_in_sign(unsigned lanes, const float *values)
+{
+    const hc_v     none = hc_v_set(0.0F);
+    const unsigned up   = hc_v_greater(hc_v_load(values), none) & lanes;
+    const unsigned down = hc_v_greater(none, hc_v_load(values)) & lanes;
+    return up == lanes || down == lanes;
+}
+
+/* True if rays of a batch go the same way along both axes, and begin about as far from where t is
+ * 0: s from there, less about the least of all. */
+static bool go_together(float *s, const hc_fast *fast, const batch *b, unsigned lanes)
+{
+    float way[2][HC_LANES];
+    float first, last;
+    for (int i = 0; i < HC_LANES; i++) {
+        s[i]      = (float)(b->from[i] * b->run[i]);
+        way[0][i] = (float)b->direction[0][i];
+        way[1][i] = (float)b->direction[1][i];
+    }
+    if (!agree_in_sign(lanes, way[0]) || !agree_in_sign(lanes, way[1])) {
+        return false;
+    }
+    span_of(&first, &last, lanes, s);
+    for (int i = 0; i < HC_LANES; i++) {
+        s[i] = (float)(b->from[i] * b->run[i] - (double)first);
+    }
+    return last - first <= 0.0625F * (float)(fast->x.cells + fast->y.cells);
+}
+
+/* Lanes that are not marched become 0, so that what is computed there is bounded. */
+static void clear_lanes(runners *q, unsigned lanes)
+{
+    float *const rows[] = { q->x, q->y, q->z, q->dx, q->dy, q->dz, q->rx, q->ry, q->end };
+    for (size_t k = 0; k < sizeof rows / sizeof rows[0]; k++) {
+        hc_v_store(rows[k], hc_v_keep(lanes, hc_v_load(rows[k])));
+    }
+}
+
+/* A batch: the rays that are to be marched, others are answered. Of rays that ask for any hit those
+ * that are left are too different to stay together. */
+static void take_group(job *j, group *g, const int32_t *which, unsigned all)
+{
+    const batch   *b       = &g->b;
+    const unsigned marched = find_marched(b) & all;
+    const bool     any     = j->answer.any != NULL;
+    turn_batch(&g->ray, j->fast, b);
+    memcpy(g->ray.which, which, sizeof g->ray.which);
+    const unsigned sure = any && !j->fast->sparse ? probe(j->fast, &g->ray, marched) : 0;
+    answer_any(j, which, sure);
+    g->lanes = marched & ~sure;
+    if (!any && __builtin_popcount(g->lanes) >= BEAM_RAYS && go_together(g->s, j->fast, b, g->lanes)
+        && join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
+        clear_lanes(&g->ray, g->lanes);
+        j->used |= 1U << (g - j->groups);
+        j->waiting[j->group_count++] = g;
+    } else if (g->lanes != 0) {
+        enqueue_group(j, g);
+    }
+    if (marched != all) {
+        enqueue_one_by_one(j, b, which, all & ~marched);
+    }
+}
+
+/* The next rays: groups, as long as they are beams, or a queue. */
+static void take_new(job *j)
+{
+    j->group_count = 0;
+    j->next_group  = 0;
+    while (j->taken < j->count && j->group_count < HC_LANES && j->queued == 0) {
+        int32_t        which[HC_LANES];
+        group         *g     = &j->groups[__builtin_ctz(~j->used)];
+        const int      left  = j->count - j->taken;
+        const int      count = left < HC_LANES ? left : HC_LANES;
+        const unsigned all   = ALL_LANES >> (HC_LANES - count);
+        for (int i = 0; i < HC_LANES; i++) {
+            which[i] = j->taken + (i < count ? i : 0);
+        }
+        j->taken += count;
+        prepare(&g->b, j->fast, j->rays, which);
+        if (j->plain) {
+            take_group(j, g, which, all);
+        } else {
+            enqueue_one_by_one(j, &g->b, which, all);
+        }
+    }
+    if (j->group_count > 0) {
+        march_beams(j->fast, &j->beams, j->group_count,
+                    j->fast->sparse ? GROUND_SPARSE : GROUND_PATCHES);
     }
 }
 

@@ -77,6 +77,81 @@ static void the_same_hits_with_every_instruction_set(void **state)
     }
 }
 
+/* Sixteen rays like one: from the same eye, or from places side by side. */
+static void make_tile(hc_ray rays[16], const hc_ray *like, uint64_t *random)
+{
+    const bool   eye   = agree_range(random, 0, 1) == 1;
+    const double width = ldexp(1.0, -agree_range(random, 2, 14));
+    double       sides[2][3];
+    for (int k = 0; k < 6; k++) {
+        sides[k / 3][k % 3] = width * (double)agree_range(random, -16, 16) / 16.0;
+    }
+    for (int i = 0; i < 16; i++) {
+        rays[i] = *like;
+        for (int k = 0; k < 3; k++) {
+            float *const moved = eye ? &rays[i].direction[k] : &rays[i].origin[k];
+            const double size  = eye ? fabs((double)like->direction[k]) : 1.0;
+            *moved += (float)(size * (sides[0][k] * (i % 4) + sides[1][k] * (double)(i / 4)));
+        }
+    }
+}
+
+typedef struct sums {
+    double among, alone;
+} sums;
+
+/* Rays that are beams at first hit, bit for bit, what each hits on its own. */
+static void compare_tiles(sums *steps, const char *kind, const hc_field *field, uint64_t *random)
+{
+    enum { TILES = 40 }; /* more than are beams at one time */
+    static hc_ray rays[16 * TILES];
+    static hc_hit hits[16 * TILES];
+    hc_tracer    *tracer;
+    assert_int_equal(hc_tracer_create(&tracer, field, NULL, NULL), HC_OK);
+    for (int i = 0; i < TILES; i++) {
+        const hc_ray like = agree_ray(field, (agree_rays)(i % RAYS_SETS), random);
+        make_tile(rays + 16 * (size_t)i, &like, random);
+    }
+    hc_trace_nearest_many(tracer, hits, rays, 16 * TILES);
+    for (int i = 0; i < 16 * TILES; i++) {
+        hc_hit alone;
+        (void)hc_trace_nearest(tracer, &alone, &rays[i]);
+        if (memcmp(&alone, &hits[i], offsetof(hc_hit, steps)) != 0) {
+            fail_msg("%s: a ray like %s hits at %.9g on its own, at %.9g in a beam",
+                     agree_describe(kind, field), agree_rays_name((agree_rays)(i / 16 % RAYS_SETS)),
+                     (double)alone.t, (double)hits[i].t);
+        }
+        if (i / 16 % RAYS_SETS == RAYS_CAMERA) {
+            steps->among += hits[i].steps;
+            steps->alone += alone.steps;
+        }
+    }
+    hc_tracer_destroy(tracer);
+}
+
+static void beams_hit_like_their_rays(void **state)
+{
+    static const int sizes[][2] = { { 1, 1 },   { 1, 9 },         { 7, 1 },    { 5, 3 },
+                                    { 33, 17 }, { SIDE_MAX, 61 }, { 300, 210 } };
+    (void)state;
+    uint64_t random = 43;
+    sums     steps  = { 0.0, 0.0 };
+    for (int kind = 0; kind <= hc_synth_count(); kind++) {
+        const char *name = kind < hc_synth_count() ? hc_synth_name(kind) : "dem";
+        for (size_t s = 0; s < sizeof sizes / sizeof *sizes; s++) {
+            hc_field field     = agree_named_field(name, sizes[s][0], sizes[s][1], 3, HC_WRAP_NONE);
+            field.registration = (hc_registration)(s % 2);
+            sums       unused  = { 0.0, 0.0 };
+            const bool large   = s + 1 == sizeof sizes / sizeof *sizes;
+            compare_tiles(large ? &steps : &unused, name, &field, &random);
+            agree_free(&field);
+        }
+    }
+    print_message("steps: %.0f in beams, %.0f alone, for cameras on the largest fields\n",
+                  steps.among, steps.alone);
+    assert_true(steps.among < 0.8 * steps.alone); /* there are beams, and they help */
+}
+
 static double mean_steps(int side)
 {
     enum { COUNT = 4000 };
@@ -110,6 +185,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_hits_with_every_instruction_set),
+        cmocka_unit_test(beams_hit_like_their_rays),
         cmocka_unit_test(steps_grow_as_the_logarithm_of_the_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
