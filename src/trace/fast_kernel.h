@@ -23,6 +23,8 @@ static void load_group(job *j, pack *p)
     hc_i_store(p->level, hc_i_set(j->beams.level[k]));
     p->active = g->lanes;
     p->group  = g;
+    memset(p->cell_x, 0, sizeof p->cell_x); /* lanes that do not wait are looked at, too */
+    memset(p->cell_y, 0, sizeof p->cell_y);
 }
 
 /* Give lanes of a pack rays from the queue. */
@@ -93,19 +95,22 @@ static void end_segments(job *j, pack *p, unsigned ended)
 
 /* ---- deciding -------------------------------------------------------------------------------- */
 
-/* What could not be told: walk over the cells from s on. False: that hits nothing. */
-static bool walk_cells(const job *j, const hc_fast_ray *r, const leftover *from, float s,
+/* What could not be told of ray i of a batch: walk over the cells from s on. False: that hits
+ * nothing. */
+static bool walk_cells(const job *j, const batch *b, int i, const leftover *from, float s,
                        float span)
 {
-    const double run = hc_fast_run(r);
+    hc_fast_ray r;
+    (void)take_ray(&r, j->fast, b, i, &j->rays[from->which]);
+    const double run = hc_fast_run(&r);
     /* On steps a lane that cut a corner may have left out the cell that it cut. */
     const double  back  = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
     const double  first = from->t + ((double)s - back) / run;
     const double  last  = from->t + (double)(s + span) / run; /* as the lane counts */
     hc_fast_found found;
-    const bool    hit = hc_fast_walk(j->fast, r, &found, first, last);
+    const bool    hit = hc_fast_walk(j->fast, &r, &found, first, last);
     if (hit) {
-        answer_hit(j, from->which, r, &found, from->steps, from->crossings);
+        answer_hit(j, from->which, &r, &found, from->steps, from->crossings);
     }
     return hit;
 }
@@ -153,10 +158,8 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
     const trials *c   = &j->trials;
     bool          hit = v->hit[i] != 0;
     if (!hit && v->clear[i] == 0) {
-        hc_fast_ray    r;
         const leftover from = { c->which[i], c->steps[i], c->crossings[i], c->from[i] };
-        (void)take_ray(&r, j->fast, b, i, &j->rays[c->which[i]]);
-        hit = walk_cells(j, &r, &from, c->s[i], c->span[i]);
+        hit                 = walk_cells(j, b, i, &from, c->s[i], c->span[i]);
     }
     const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
     if (c->lane[i] >= 0) {
@@ -262,9 +265,7 @@ static void decide_group(job *j, pack *p)
     for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
         const int      i    = __builtin_ctz(rest);
         const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], p->from[i] };
-        hc_fast_ray    r;
-        (void)take_ray(&r, j->fast, b, i, &j->rays[from.which]);
-        hits |= (unsigned)walk_cells(j, &r, &from, p->s[i], p->span[i]) << i;
+        hits |= (unsigned)walk_cells(j, b, i, &from, p->s[i], p->span[i]) << i;
     }
     const unsigned on    = p->held & ~hits;
     const hc_v     s     = hc_v_load(p->s);
@@ -381,15 +382,12 @@ static void start(job *j)
     j->group_count  = 0;
     j->next_group   = 0;
     j->used         = 0;
-    memset(&j->beams, 0, sizeof j->beams);
     for (int k = 0; k < PACKS; k++) {
         pack *p   = &j->packs[k];
         p->active = 0;
         p->near   = 0;
         p->held   = 0;
         p->group  = NULL;
-        memset(p->cell_x, 0, sizeof p->cell_x);
-        memset(p->cell_y, 0, sizeof p->cell_y);
         memset(p->level, 0, sizeof p->level);
         memset(p->ray.quadrant, 0, sizeof p->ray.quadrant);
     }

@@ -303,6 +303,24 @@ static void clear_lanes(runners *q, unsigned lanes)
     }
 }
 
+/* Make a group's rays a beam, if they can be one. Lanes without a beam are computed too. */
+static bool join_group(job *j, group *g)
+{
+    if (__builtin_popcount(g->lanes) < BEAM_RAYS || !go_together(g->s, j->fast, &g->b, g->lanes)) {
+        return false;
+    }
+    if (j->group_count == 0) {
+        memset(&j->beams, 0, sizeof j->beams);
+    }
+    if (!join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
+        return false;
+    }
+    clear_lanes(&g->ray, g->lanes);
+    j->used |= 1U << (g - j->groups);
+    j->waiting[j->group_count++] = g;
+    return true;
+}
+
 /* A batch: the rays that are to be marched, others are answered. Of rays that ask for any hit those
  * that are left are too different to stay together. */
 static void take_group(job *j, group *g, const int32_t *which, unsigned all)
@@ -315,12 +333,7 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     const unsigned sure = any && !j->fast->sparse ? probe(j->fast, &g->ray, marched) : 0;
     answer_any(j, which, sure);
     g->lanes = marched & ~sure;
-    if (!any && __builtin_popcount(g->lanes) >= BEAM_RAYS && go_together(g->s, j->fast, b, g->lanes)
-        && join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
-        clear_lanes(&g->ray, g->lanes);
-        j->used |= 1U << (g - j->groups);
-        j->waiting[j->group_count++] = g;
-    } else if (g->lanes != 0) {
+    if (g->lanes != 0 && (any || !join_group(j, g))) {
         enqueue_group(j, g);
     }
     if (marched != all) {
