@@ -30,6 +30,23 @@ void agree_shot_close(agree_shot *shot, hc_result result, hc_backend backend, co
     hc_picture_bytes(shot->bytes, &shot->picture);
 }
 
+hc_terrain *agree_terrain_make(const hc_terrain_scene *scene, hc_view view, hc_backend backend)
+{
+    const hc_render_options options = { .view = view, .backend = backend };
+    hc_log                  log     = { .text = "" };
+    hc_terrain             *terrain = NULL;
+    agree_skip_without_gl(hc_terrain_create(&terrain, scene, &options, &log), backend, &log);
+    return terrain;
+}
+
+void agree_shot_terrain(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera)
+{
+    hc_log log = { .text = "" };
+    agree_shot_open(shot);
+    agree_shot_close(shot, hc_terrain_draw(&shot->picture, terrain, camera, &log), HC_BACKEND_CPU,
+                     &log);
+}
+
 int agree_shots_odd(const agree_shot *a, const agree_shot *b)
 {
     int odd = 0;

@@ -4,7 +4,7 @@
 
 #include "support.h"
 
-#include <heightcast/render.h>
+#include <heightcast/terrain.h>
 
 enum { SHOT_WIDE = 96, SHOT_HIGH = 64, SHOT_PIXELS = SHOT_WIDE * SHOT_HIGH };
 
@@ -24,6 +24,10 @@ void agree_shot_open(agree_shot *shot);
 void agree_shot_close(agree_shot *shot, hc_result result, hc_backend backend, const hc_log *log);
 /* The skipping alone. */
 void agree_skip_without_gl(hc_result result, hc_backend backend, const hc_log *log);
+
+/* A terrain, and what a camera sees of it, all in one. */
+hc_terrain *agree_terrain_make(const hc_terrain_scene *scene, hc_view view, hc_backend backend);
+void agree_shot_terrain(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera);
 
 /* Pixels that differ. */
 int agree_shots_odd(const agree_shot *a, const agree_shot *b);

@@ -53,32 +53,15 @@ static hc_terrain_scene scene_of(hc_trace_method method, hc_detail_method way)
     return scene;
 }
 
-static hc_terrain *make(const hc_terrain_scene *scene, hc_view view, hc_backend backend)
-{
-    const hc_render_options options = { .view = view, .backend = backend };
-    hc_log                  log     = { .text = "" };
-    hc_terrain             *terrain = NULL;
-    agree_skip_without_gl(hc_terrain_create(&terrain, scene, &options, &log), backend, &log);
-    return terrain;
-}
-
-static void draw(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera)
-{
-    hc_log log = { .text = "" };
-    agree_shot_open(shot);
-    agree_shot_close(shot, hc_terrain_draw(&shot->picture, terrain, camera, &log), HC_BACKEND_CPU,
-                     &log);
-}
-
 static void compare(const hc_terrain_scene *scene, hc_view view)
 {
-    hc_terrain *by_gl  = make(scene, view, HC_BACKEND_GL);
-    hc_terrain *by_cpu = make(scene, view, HC_BACKEND_CPU);
+    hc_terrain *by_gl  = agree_terrain_make(scene, view, HC_BACKEND_GL);
+    hc_terrain *by_cpu = agree_terrain_make(scene, view, HC_BACKEND_CPU);
     for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
         hc_camera camera;
         hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.3);
-        draw(&cpu, by_cpu, &camera);
-        draw(&gl, by_gl, &camera);
+        agree_shot_terrain(&cpu, by_cpu, &camera);
+        agree_shot_terrain(&gl, by_gl, &camera);
         const int odd = agree_shots_odd(&cpu, &gl);
         if (odd > SHOT_ODD_MAX) {
             fail_msg("%s, %s, camera %d: %d pixels differ",

@@ -31,35 +31,17 @@ static hc_terrain_scene scene_of(hc_trace_method method)
     return scene;
 }
 
-static hc_terrain *make(const hc_terrain_scene *scene, hc_view view, hc_backend backend)
-{
-    const hc_render_options options = { .view = view, .backend = backend };
-    hc_log                  log     = { .text = "" };
-    hc_terrain             *terrain = NULL;
-    const hc_result         result  = hc_terrain_create(&terrain, scene, &options, &log);
-    agree_skip_without_gl(result, backend, &log);
-    return terrain;
-}
-
-static void draw(agree_shot *shot, const hc_terrain *terrain, const hc_camera *camera)
-{
-    hc_log log = { .text = "" };
-    agree_shot_open(shot);
-    agree_shot_close(shot, hc_terrain_draw(&shot->picture, terrain, camera, &log), HC_BACKEND_CPU,
-                     &log);
-}
-
 /* From every tour, and with parallel rays from above. */
 static void compare(const hc_terrain_scene *scene, hc_view view)
 {
-    hc_terrain *by_gl  = make(scene, view, HC_BACKEND_GL);
-    hc_terrain *by_cpu = make(scene, view, HC_BACKEND_CPU);
+    hc_terrain *by_gl  = agree_terrain_make(scene, view, HC_BACKEND_GL);
+    hc_terrain *by_cpu = agree_terrain_make(scene, view, HC_BACKEND_CPU);
     for (int from = 0; from <= HC_TOUR_ORBIT + 1; from++) {
         hc_camera camera;
         hc_terrain_tour(&camera, by_cpu, from > HC_TOUR_ORBIT ? HC_TOUR_ORBIT : (hc_tour)from, 0.3);
         camera.orthographic = from > HC_TOUR_ORBIT ? 2500.0F : 0.0F;
-        draw(&cpu, by_cpu, &camera);
-        draw(&gl, by_gl, &camera);
+        agree_shot_terrain(&cpu, by_cpu, &camera);
+        agree_shot_terrain(&gl, by_gl, &camera);
         const int odd = agree_shots_odd(&cpu, &gl);
         if (odd > SHOT_ODD_MAX) {
             fail_msg("%s, camera %d: %d pixels differ", hc_trace_method_name(scene->trace.method),
@@ -195,14 +177,14 @@ static void depths_agree(void **state)
 {
     (void)state;
     const hc_terrain_scene scene  = scene_of(HC_TRACE_MAXMIP);
-    hc_terrain            *by_gl  = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
-    hc_terrain            *by_cpu = make(&scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
+    hc_terrain            *by_gl  = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain            *by_cpu = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_CPU);
     for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
         hc_camera camera;
         int       odd = 0, both = 0;
         hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.0);
-        draw(&cpu, by_cpu, &camera);
-        draw(&gl, by_gl, &camera);
+        agree_shot_terrain(&cpu, by_cpu, &camera);
+        agree_shot_terrain(&gl, by_gl, &camera);
         for (int i = 0; i < SHOT_PIXELS; i++) {
             const bool hit = isfinite(cpu.depth[i]) && isfinite(gl.depth[i]);
             both += hit ? 1 : 0;
@@ -226,11 +208,11 @@ static void nothing_is_lost(void **state)
     for (int m = 0; m < 3; m++) {
         hc_terrain_scene scene = scene_of(methods[m]);
         scene.trace.steps      = 4; /* only the last one counts them */
-        hc_terrain *by_gl      = make(&scene, HC_VIEW_MISSED, HC_BACKEND_GL);
+        hc_terrain *by_gl      = agree_terrain_make(&scene, HC_VIEW_MISSED, HC_BACKEND_GL);
         for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
             hc_camera camera;
             hc_terrain_tour(&camera, by_gl, (hc_tour)tour, 0.6);
-            draw(&gl, by_gl, &camera);
+            agree_shot_terrain(&gl, by_gl, &camera);
             const uint64_t wrong = gl.picture.figures.lost + gl.picture.figures.made_up;
             assert_true((wrong == 0) == (methods[m] != HC_TRACE_CONE_LOOP));
         }
@@ -251,14 +233,14 @@ static void flat_patches_are_their_triangles(void **state)
     for (int i = 0; i < SIDE * SIDE; i++) {
         flat[i] = 0.5F * (maps.heights[i % SIDE] + maps.heights[i / SIDE * SIDE]);
     }
-    hc_terrain *by_rays = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain *by_rays = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
     scene.polygons      = HC_POLYGONS_FULL;
-    hc_terrain *by_mesh = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain *by_mesh = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
     for (int tour = HC_TOUR_FLY; tour <= HC_TOUR_UP; tour++) {
         hc_camera camera;
         hc_terrain_tour(&camera, by_rays, (hc_tour)tour, 0.3);
-        draw(&cpu, by_rays, &camera);
-        draw(&gl, by_mesh, &camera);
+        agree_shot_terrain(&cpu, by_rays, &camera);
+        agree_shot_terrain(&gl, by_mesh, &camera);
         if (agree_shots_odd(&cpu, &gl) > SHOT_ODD_MAX) {
             fail_msg("camera %d: %d pixels differ", tour, agree_shots_odd(&cpu, &gl));
         }
@@ -277,16 +259,16 @@ static void coarse_blocks_leave_no_gaps(void **state)
     hc_terrain_scene scene = scene_of(HC_TRACE_MAXMIP);
     scene.no_shadows       = true;
     scene.polygons         = HC_POLYGONS_FULL;
-    hc_terrain *full       = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain *full       = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
     scene.polygons         = HC_POLYGONS_LOD;
-    hc_terrain *lod        = make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain *lod        = agree_terrain_make(&scene, HC_VIEW_SHADED, HC_BACKEND_GL);
     int         changed    = 0;
     for (int frame = 0; frame < 8; frame++) {
         hc_camera camera;
         hc_terrain_tour(&camera, full, HC_TOUR_ORBIT, frame / 8.0);
         camera.eye[2] *= frame % 2 == 0 ? 1.0 : 3.0; /* coarser */
-        draw(&cpu, full, &camera);
-        draw(&gl, lod, &camera);
+        agree_shot_terrain(&cpu, full, &camera);
+        agree_shot_terrain(&gl, lod, &camera);
         changed += memcmp(cpu.depth, gl.depth, sizeof gl.depth) != 0 ? 1 : 0;
         for (int i = SHOT_WIDE + 1; i < SHOT_PIXELS - SHOT_WIDE - 1; i++) {
             bool within = true;
@@ -331,16 +313,16 @@ static void terrains_take_turns(void **state)
     const hc_terrain_scene first  = scene_of(HC_TRACE_MAXMIP);
     hc_terrain_scene       second = first;
     second.ground                 = HC_GROUND_PLAIN;
-    hc_terrain     *a             = make(&first, HC_VIEW_SHADED, HC_BACKEND_GL);
-    hc_terrain     *b             = make(&second, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain     *a             = agree_terrain_make(&first, HC_VIEW_SHADED, HC_BACKEND_GL);
+    hc_terrain     *b             = agree_terrain_make(&second, HC_VIEW_SHADED, HC_BACKEND_GL);
     hc_picture      little        = { .width = 8, .height = 4, .rgb = small };
     const hc_camera camera        = { .fov = 60.0F };
-    draw(&cpu, a, &camera);
-    draw(&gl, b, &camera);
+    agree_shot_terrain(&cpu, a, &camera);
+    agree_shot_terrain(&gl, b, &camera);
     assert_true(agree_shots_odd(&cpu, &gl) > 1000);
     assert_int_equal(hc_terrain_draw(&little, a, &camera, NULL), HC_OK);
     hc_terrain_destroy(b);
-    draw(&gl, a, &camera);
+    agree_shot_terrain(&gl, a, &camera);
     assert_memory_equal(cpu.bytes, gl.bytes, sizeof gl.bytes);
     hc_terrain_destroy(a);
 }
