@@ -1,6 +1,7 @@
 /* heightcast bench render: frames of relief by every kind of map and method, as a table, JSON and
  * CSV. */
 #include "bench_run.h"
+#include "meaning.h"
 #include "words.h"
 
 #include "bench/render_bench.h"
@@ -123,9 +124,7 @@ static hc_result measure(hc_cli_run *r)
     const hc_bench_render_options options  = { .plan     = hc_cli_run_plan(r),
                                                .width    = settings->size.width,
                                                .height   = settings->size.height,
-                                               .backend  = settings->backend == HC_CLI_GL
-                                                               ? HC_BACKEND_GL
-                                                               : HC_BACKEND_CPU,
+                                               .backend  = hc_cli_drawn_by(settings),
                                                .row_done = row_done,
                                                .user     = r };
     return hc_bench_render(&options, &r->cli->log);

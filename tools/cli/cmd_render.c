@@ -167,8 +167,7 @@ static hc_result cast(hc_cli *cli, const hc_cli_relief *relief, hc_cli_animation
 {
     hc_cli_settings  *settings = &cli->settings;
     hc_render_options options  = { .view     = settings->render.view,
-                                   .backend  = settings->backend == HC_CLI_GL ? HC_BACKEND_GL
-                                                                              : HC_BACKEND_CPU,
+                                   .backend  = hc_cli_drawn_by(settings),
                                    .top      = settings->render.top,
                                    .threads  = settings->threads,
                                    .progress = hc_cli_progress(cli),

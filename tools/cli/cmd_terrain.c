@@ -138,8 +138,7 @@ static hc_result make(hc_terrain **terrain, hc_cli *cli, const hc_terrain_scene 
 {
     hc_cli_settings  *settings = &cli->settings;
     hc_render_options options  = { .view     = view_of(settings),
-                                   .backend  = settings->backend == HC_CLI_GL ? HC_BACKEND_GL
-                                                                              : HC_BACKEND_CPU,
+                                   .backend  = hc_cli_drawn_by(settings),
                                    .threads  = settings->threads,
                                    .progress = hc_cli_progress(cli) };
     hc_cli_phase(cli, "build");

@@ -18,6 +18,11 @@ int hc_cli_check_pairs(hc_cli *cli, const char *const (*pairs)[2], size_t count)
     return HC_CLI_DONE;
 }
 
+hc_backend hc_cli_drawn_by(const hc_cli_settings *settings)
+{
+    return settings->backend == HC_CLI_GL ? HC_BACKEND_GL : HC_BACKEND_CPU;
+}
+
 static int check_size(hc_cli *cli)
 {
     const hc_cli_size size = cli->settings.size;

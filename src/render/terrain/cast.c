@@ -213,11 +213,10 @@ hc_result hc_terrain_cast(hc_pixel *pixels, const hc_terrain *terrain, const hc_
 {
     const int threads = hc_threads_resolve(terrain->options.threads);
     scratch  *all     = calloc((size_t)threads, sizeof *all);
-    job       j       = { .pixels  = pixels,
-                          .terrain = terrain,
-                          .eye     = eye,
-                          .footprint =
-                  eye->parallel ? 0.0 : 2.0 * sqrt(hc_dot(eye->right, eye->right)) / eye->width,
+    job       j       = { .pixels    = pixels,
+                          .terrain   = terrain,
+                          .eye       = eye,
+                          .footprint = hc_terrain_footprint(eye),
                           .scratches = all };
     bool      enough  = all != NULL;
     for (int i = 0; enough && i < threads; i++) {
