@@ -516,7 +516,8 @@ void main(void)
     }
     hc_hit hit   = hc_hit(distance_, on_patch(v_place), 0, 0);
     vec3 normal  = normal_at(hit, direction * u_scale);
-    vec3 colour  = see_ground(hit, normal, direction, v_from_eye, u_haze_top - shift.z);
+    vec3 lit_by  = (hit.place - u_place) / u_scale;
+    vec3 colour  = see_ground(hit, normal, direction, lit_by, u_haze_top - shift.z);
     o_light      = vec4(colour, distance_);
     o_normal     = vec4(normal, v_place.z);
     o_counts     = vec4(0.0, 0.0, 1.0, 0.0);

@@ -90,20 +90,28 @@ hc_result hc_bands_take_bodies(hc_bands *bands, const hc_gl_bodies *bodies, hc_l
 }
 
 /* Where fragments' middles are, rays go through the sample's place. */
-static void draw_bodies(const hc_bands *bands, const band *b)
+static void use_window(unsigned program, const hc_bands *bands, const band *b)
 {
     const double rows  = b->rows;
     const double scale = b->height / rows;
     const double right = 2.0 * (0.5 - b->place[0]) / bands->width;
     const double down  = scale + 2.0 * (0.5 - b->place[1] - b->first_row) / rows - 1.0;
-    glUseProgram(bands->bodies.program);
-    glUniform4f(glGetUniformLocation(bands->bodies.program, "u_window"), 1.0F, (float)scale,
-                (float)right, (float)down);
-    if (bands->bodies.ground != NULL) {
-        hc_polygons_draw(bands->bodies.ground);
-    } else {
-        glBindVertexArray(bands->bodies.array);
-        glDrawArrays(GL_TRIANGLES, 0, bands->bodies.count);
+    glUseProgram(program);
+    glUniform4f(glGetUniformLocation(program, "u_window"), 1.0F, (float)scale, (float)right,
+                (float)down);
+}
+
+static void draw_bodies(const hc_bands *bands, const band *b, bool ground)
+{
+    const hc_gl_bodies *bodies = &bands->bodies;
+    if (ground) {
+        use_window(bodies->ground_program, bands, b);
+        hc_polygons_draw(bodies->ground);
+    }
+    if (bodies->count > 0) {
+        use_window(bodies->program, bands, b);
+        glBindVertexArray(bodies->array);
+        glDrawArrays(GL_TRIANGLES, 0, bodies->count);
     }
     glBindVertexArray(bands->vertices);
 }
@@ -111,11 +119,9 @@ static void draw_bodies(const hc_bands *bands, const band *b)
 static void draw_band(const hc_bands *bands, unsigned program, const band *b)
 {
     glViewport(0, 0, bands->width, b->rows);
-    if (bands->depth != 0) {
+    if (bands->depth != 0) { /* the exact ground is that of rays */
         glClear(GL_DEPTH_BUFFER_BIT);
-    }
-    if (bands->depth != 0 && (program == bands->program || bands->bodies.ground == NULL)) {
-        draw_bodies(bands, b);
+        draw_bodies(bands, b, bands->bodies.ground != NULL && program == bands->program);
     }
     glUseProgram(program);
     glUniform1f(glGetUniformLocation(program, "u_first_row"), (float)b->first_row);

@@ -17,8 +17,9 @@ enum { HC_GL_PLANES = 3 };
 typedef struct hc_gl_bodies {
     unsigned program, array; /* array: of vertices */
     int      count;          /* of vertices; 0: there are none */
-    /* The ground, instead of the array; NULL: there is none. */
+    /* The ground as triangles, by a program of its own; NULL: rays draw it. */
     const struct hc_gl_polygons *ground;
+    unsigned                     ground_program;
 } hc_gl_bodies;
 
 typedef struct hc_bands {

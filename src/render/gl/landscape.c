@@ -38,6 +38,7 @@ struct hc_terrain_gl {
     unsigned      corners; /* of them: a buffer */
 
     hc_gl_polygons polygons; /* where the scene has them */
+    bool           warm;     /* something has been drawn  */
 };
 
 /* ---- making -------------------------------------------------------------------------------- */
@@ -241,7 +242,7 @@ static hc_result add_polygons(hc_terrain_gl *gl, const hc_terrain *terrain, hc_l
     const hc_result result = hc_polygons_make(&gl->polygons, terrain, log);
     gl->bodies.ground      = &gl->polygons;
     return result != HC_OK ? result
-                           : build(&gl->bodies.program, terrain, "ground.vert", false, log);
+                           : build(&gl->bodies.ground_program, terrain, "ground.vert", false, log);
 }
 
 void hc_terrain_gl_free(hc_terrain_gl *gl)
@@ -253,6 +254,7 @@ void hc_terrain_gl_free(hc_terrain_gl *gl)
         glDeleteProgram(gl->program);
         glDeleteProgram(gl->exact);
         glDeleteProgram(gl->bodies.program);
+        glDeleteProgram(gl->bodies.ground_program);
         glDeleteVertexArrays(1, &gl->bodies.array);
         glDeleteBuffers(1, &gl->corners);
         glDeleteTextures(TEXTURES, gl->textures);
@@ -377,25 +379,26 @@ static void add(void *user, hc_pixel *pixel, const hc_sample *sample, const doub
 static hc_result draw(hc_pixel *pixels, double *seconds, const hc_terrain *terrain,
                       const hc_eye *eye, hc_bands *bands, hc_log *log)
 {
-    job j          = { terrain, eye };
-    bands->program = terrain->gl->program;
-    bands->exact   = terrain->gl->exact;
-    glUseProgram(bands->program);
-    set_eye(bands->program, terrain, eye);
-    if (bands->exact != 0) {
-        glUseProgram(bands->exact);
-        set_eye(bands->exact, terrain, eye);
-    }
-    if (bands->depth != 0) {
-        glUseProgram(bands->bodies.program);
-        set_eye(bands->bodies.program, terrain, eye);
+    job j                     = { terrain, eye };
+    bands->program            = terrain->gl->program;
+    bands->exact              = terrain->gl->exact;
+    const unsigned programs[] = { bands->program, bands->exact, bands->bodies.program,
+                                  bands->bodies.ground_program };
+    for (size_t i = 0; i < sizeof programs / sizeof *programs; i++) {
+        if (programs[i] != 0) {
+            glUseProgram(programs[i]);
+            set_eye(programs[i], terrain, eye);
+        }
     }
     const double start = hc_clock_now();
     if (bands->bodies.ground != NULL) {
         hc_polygons_aim(&terrain->gl->polygons, terrain, eye);
     }
     const double aimed = hc_clock_now() - start; /* it is a part of drawing them */
-    hc_bands_warm(bands);
+    if (!terrain->gl->warm) { /* as much work as a picture, where the ground is triangles */
+        hc_bands_warm(bands);
+        terrain->gl->warm = true;
+    }
     const hc_result result =
         hc_bands_draw(pixels, seconds, bands, eye, &terrain->options.progress, add, &j, log);
     *seconds += aimed;

@@ -79,17 +79,12 @@ static hc_result check_scene(const hc_terrain_scene *scene, hc_log *log)
 
 static hc_result check_polygons(const hc_terrain *terrain, hc_log *log)
 {
-    const hc_terrain_scene *scene = &terrain->scene;
-    CHECK(check_whole("scene.polygons", (int)scene->polygons, 0, HC_POLYGONS_LOD, log));
-    if (scene->polygons == HC_POLYGONS_NONE) {
-        return HC_OK;
-    }
-    const char *why = terrain->options.backend != HC_BACKEND_GL ? "only gl draws them"
-                      : scene->object_count > 0                 ? "they have no place for objects"
-                                                                : NULL;
-    return why == NULL ? HC_OK
-                       : hc_fail(log, HC_ERROR_UNSUPPORTED, "scene.polygons is %s; %s",
-                                 hc_polygons_name(scene->polygons), why);
+    const hc_polygons polygons = terrain->scene.polygons;
+    CHECK(check_whole("scene.polygons", (int)polygons, 0, HC_POLYGONS_LOD, log));
+    return polygons == HC_POLYGONS_NONE || terrain->options.backend == HC_BACKEND_GL
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_UNSUPPORTED, "scene.polygons is %s; only gl draws them",
+                         hc_polygons_name(polygons));
 }
 
 static hc_result check_options(const hc_render_options *options, hc_log *log)
