@@ -8,6 +8,8 @@
 
 enum { WIDTH = 480, HEIGHT = 270, FRAMES = 5, TOURS = 2 };
 
+static const double LIMIT = 60.0;
+
 /* In the order of hc_polygons, but none. */
 static const char *const polygon_names[2] = { "mesh", "lod" };
 
@@ -22,6 +24,7 @@ typedef struct job {
     hc_cones                        cones;
     float                          *ratios;
     hc_picture                      picture;
+    double                          start; /* of what the limit is for */
     hc_log                         *log;
 } job;
 
@@ -38,6 +41,28 @@ static double now(void)
     struct timespec time;
     (void)clock_gettime(CLOCK_MONOTONIC, &time);
     return (double)time.tv_sec + 1e-9 * (double)time.tv_nsec;
+}
+
+/* ---- the limit ------------------------------------------------------------------------------- */
+
+static bool is_over(const job *j)
+{
+    const double limit = j->options->limit > 0.0 ? j->options->limit : LIMIT;
+    return now() - j->start > limit;
+}
+
+static bool go_on(void *user, double fraction)
+{
+    const job *j = user;
+    (void)fraction;
+    return !is_over(j) && !hc_bench_stopped(&j->options->plan);
+}
+
+/* What ends a method and not the whole measurement. */
+static bool is_its_own(hc_result result, const job *j)
+{
+    return (result == HC_ERROR_CANCELLED && !hc_bench_stopped(&j->options->plan))
+           || result == HC_ERROR_MEMORY || result == HC_ERROR_LIMIT;
 }
 
 /* ---- getting ready --------------------------------------------------------------------------- */
@@ -58,7 +83,8 @@ static hc_result bake(job *j)
     j->cones                      = cells ? HC_CONES_QUAD : HC_CONES_L2;
     const hc_cone_options options = { .cones   = j->cones,
                                       .method  = relaxed ? HC_METHOD_FALLING_EDGE : HC_METHOD_EXACT,
-                                      .threads = j->options->plan.threads };
+                                      .threads = j->options->plan.threads,
+                                      .progress = { .report = go_on, .user = j } };
     return needs == HC_NEEDS_NOTHING
                ? HC_OK
                : hc_bench_bake_ratios(&j->ratios, &j->field, &options, cells, j->log);
@@ -85,49 +111,69 @@ static hc_result make(hc_terrain **terrain, const job *j, hc_view view)
 
 /* ---- frames ---------------------------------------------------------------------------------- */
 
-/* What all frames of a tour came to. */
+/* What the frames of a tour came to. */
 typedef struct sums {
+    int    frames;
     double seconds, entered, crossings, lost, made_up;
 } sums;
 
-static hc_result draw_tour(sums *all, job *j, const hc_terrain *terrain, hc_tour tour)
+static hc_result draw_frame(sums *all, job *j, const hc_terrain *terrain, hc_tour tour, int frame)
 {
     const hc_render_figures *f = &j->picture.figures;
-    *all                       = (sums){ 0 };
-    for (int i = 0; i < FRAMES; i++) {
-        hc_camera camera;
-        hc_terrain_tour(&camera, terrain, tour, (double)i / FRAMES);
-        const hc_result result = hc_bench_stopped(&j->options->plan)
-                                     ? HC_ERROR_CANCELLED
-                                     : hc_terrain_draw(&j->picture, terrain, &camera, j->log);
-        if (result != HC_OK) {
-            return result;
-        }
+    hc_camera                camera;
+    hc_terrain_tour(&camera, terrain, tour, (double)frame / FRAMES);
+    const hc_result result = hc_bench_stopped(&j->options->plan)
+                                 ? HC_ERROR_CANCELLED
+                                 : hc_terrain_draw(&j->picture, terrain, &camera, j->log);
+    if (result == HC_OK) {
+        all->frames++;
         all->seconds += f->seconds;
         all->entered += (double)f->entered;
         all->crossings += f->mean_crossings * (double)f->entered;
         all->lost += (double)f->lost;
         all->made_up += (double)f->made_up;
     }
+    return result;
+}
+
+/* Frames of all tours in turn, so that a busy moment of the machine does not fall on one of them. */
+static hc_result draw_tours(sums all[TOURS], job *j, const hc_terrain *terrain, bool once)
+{
+    memset(all, 0, TOURS * sizeof *all);
+    for (int i = 0; i < FRAMES * TOURS; i++) {
+        const bool first = once && i < TOURS;
+        if (!first && is_over(j)) {
+            break;
+        }
+        const hc_result result =
+            draw_frame(&all[i % TOURS], j, terrain, tours[i % TOURS], i / TOURS);
+        if (result != HC_OK) {
+            return result;
+        }
+    }
     return HC_OK;
 }
 
-/* Runs go round the tours, so that a busy moment of the machine does not fall on one of them. */
 static hc_result time_tours(hc_bench_tour *found[TOURS], job *j, const hc_terrain *terrain,
                             int runs)
 {
     for (int run = 0; run < runs; run++) {
+        sums            all[TOURS];
+        const hc_result result = draw_tours(all, j, terrain, run == 0);
+        if (result != HC_OK) {
+            return result;
+        }
         for (int i = 0; i < TOURS; i++) {
-            sums            all;
-            const hc_result result = draw_tour(&all, j, terrain, tours[i]);
-            if (result != HC_OK) {
-                return result;
+            const double rate = all[i].frames / all[i].seconds;
+            if (run > 0 && all[i].frames < FRAMES) {
+                return HC_OK;
             }
-            const double rate = FRAMES / all.seconds;
-            if (rate > found[i]->frames_per_second) {
+            if (run == 0 || rate > found[i]->frames_per_second) {
                 found[i]->frames_per_second = rate;
             }
-            found[i]->mean_crossings = all.entered > 0.0 ? all.crossings / all.entered : 0.0;
+            found[i]->frames = all[i].frames;
+            found[i]->mean_crossings =
+                all[i].entered > 0.0 ? all[i].crossings / all[i].entered : 0.0;
         }
     }
     return HC_OK;
@@ -135,14 +181,16 @@ static hc_result time_tours(hc_bench_tour *found[TOURS], job *j, const hc_terrai
 
 static hc_result judge_tours(hc_bench_tour *found[TOURS], job *j)
 {
+    sums        all[TOURS];
     hc_terrain *terrain = NULL;
     hc_result   result  = make(&terrain, j, HC_VIEW_MISSED);
+    j->start            = now();
+    result              = result == HC_OK ? draw_tours(all, j, terrain, true) : result;
     for (int i = 0; i < TOURS && result == HC_OK; i++) {
-        sums all;
-        result            = draw_tour(&all, j, terrain, tours[i]);
-        const double rays = all.entered > 0.0 ? all.entered : 1.0;
-        found[i]->lost    = all.lost / rays;
-        found[i]->made_up = all.made_up / rays;
+        const double rays = all[i].entered > 0.0 ? all[i].entered : 1.0;
+        found[i]->judged  = all[i].frames;
+        found[i]->lost    = all[i].lost / rays;
+        found[i]->made_up = all[i].made_up / rays;
     }
     hc_terrain_destroy(terrain);
     return result;
@@ -164,10 +212,10 @@ static hc_result measure_ready(hc_bench_terrain_row *row, job *j)
 {
     hc_bench_tour *found[TOURS] = { &row->fly, &row->walk };
     hc_terrain    *terrain      = NULL;
-    const double   start        = now();
-    hc_result      result       = bake(j);
+    j->start                    = now();
+    hc_result result            = bake(j);
     result                      = result == HC_OK ? make(&terrain, j, HC_VIEW_SHADED) : result;
-    row->seconds                = now() - start;
+    row->seconds                = now() - j->start;
     if (result == HC_OK) {
         row->bytes = bytes_held(j);
         result     = time_tours(found, j, terrain, row->runs);
@@ -193,12 +241,15 @@ static hc_result measure_method(job *j, const char *name)
     hc_bench_terrain_row row = { .field  = j->name,
                                  .side   = j->field.width,
                                  .method = name,
-                                 .runs   = hc_bench_repeat(&j->options->plan),
-                                 .frames = FRAMES };
+                                 .runs   = hc_bench_repeat(&j->options->plan) };
     choose_method(j, name);
-    const hc_result result = measure_ready(&row, j);
+    hc_result result = measure_ready(&row, j);
     free(j->ratios);
     j->ratios = NULL;
+    if (is_its_own(result, j)) {
+        row.stopped = result;
+        result      = HC_OK;
+    }
     if (result == HC_OK) {
         j->options->row_done(j->options->user, &row);
     }
@@ -207,16 +258,15 @@ static hc_result measure_method(job *j, const char *name)
 
 static hc_result measure_field(void *context, const char *name, const hc_field *field)
 {
-    static const char *const usual[] = {
-        "fast", "maxmip", "pdm", "safe", "cone-loop", "mesh", "lod"
-    };
+    static const char *const usual[] = { "fast",      "maxmip", "pdm",  "safe",
+                                         "cone-loop", "qdm",    "mesh", "lod" };
     /* fast is the CPU's alone, polygons are GL's. */
     job                 *j      = context;
     const hc_bench_plan *plan   = &j->options->plan;
     const bool           gl     = j->options->backend == HC_BACKEND_GL;
     const bool           all    = plan->method_count == 0;
     const char *const   *names  = !all ? plan->methods : gl ? usual + 1 : usual;
-    const int            count  = !all ? plan->method_count : gl ? 6 : 5;
+    const int            count  = !all ? plan->method_count : gl ? 7 : 6;
     hc_result            result = HC_OK;
     j->name                     = name;
     j->field                    = *field;

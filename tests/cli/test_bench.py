@@ -190,9 +190,9 @@ class Bench(Case):
         rows = {(row["side"], row["method"]): row for row in report["rows"]}
         self.assertEqual(set(rows), {(side, method) for side in (32, 64)
                                      for method in ("fast", "maxmip", "pdm", "safe",
-                                                    "cone-loop")})
+                                                    "cone-loop", "qdm")})
         for (side, method), row in rows.items():
-            self.assertEqual((row["runs"], row["frames"]), (1, 5))
+            self.assertEqual((row["runs"], row["stopped"]), (1, ""))
             self.assertGreater(row["seconds"], 0)
             # Heights; safe has four ratios besides, cone-loop one.
             self.assertGreaterEqual(row["bytes"], side**2 * {"safe": 20, "cone-loop": 8}.get(
@@ -200,7 +200,8 @@ class Bench(Case):
             for tour in (row["fly"], row["walk"]):
                 self.assertGreater(tour["frames_per_second"], 0)
                 self.assertGreater(tour["mean_crossings"], 0)
-                if method != "cone-loop":
+                self.assertEqual((tour["frames"], tour["judged"]), (5, 5))
+                if method not in ("cone-loop", "qdm"):  # tops are not patches
                     self.assertEqual((tour["lost"], tour["made_up"]), (0, 0))
         self.assertGreater(rows[64, "cone-loop"]["walk"]["lost"]
                            + rows[64, "cone-loop"]["walk"]["made_up"], 0)
@@ -221,7 +222,7 @@ class Bench(Case):
             self.skipTest("no OpenGL here")
         report = self.terrain("--sizes", 64, "--backend", "gl")
         rows = {row["method"]: row for row in report["rows"]}
-        self.assertEqual(set(rows), {"maxmip", "pdm", "safe", "cone-loop", "mesh", "lod"})
+        self.assertEqual(set(rows), {"maxmip", "pdm", "safe", "cone-loop", "qdm", "mesh", "lod"})
         for method in "mesh", "lod":
             self.assertEqual(rows[method]["bytes"], 4 * 64 * 64)
             self.assertEqual(rows[method]["fly"]["mean_crossings"], 0)
@@ -231,6 +232,23 @@ class Bench(Case):
     def test_terrain_polygons_need_opengl(self):
         self.refused("bench", "terrain", "--sizes", 16, "--methods", "mesh", code=BAD_FILE,
                      says="only gl")
+
+    def test_terrain_within_a_limit(self):
+        report = self.terrain("--sizes", 128, "--methods", "cone-loop,maxmip", "--limit", 1e-6,
+                              "--csv", "limit.csv")
+        baked, drawn = report["rows"]
+        self.assertEqual((baked["stopped"], baked["fly"]["frames"], baked["walk"]["judged"]),
+                         ("limit", 0, 0))
+        self.assertEqual(drawn["stopped"], "")
+        for tour in drawn["fly"], drawn["walk"]:
+            self.assertEqual((tour["frames"], tour["judged"]), (1, 1))
+            self.assertGreater(tour["frames_per_second"], 0)
+        self.assertEqual([figure["method"] for figure in report["figures"]], ["maxmip"])
+        with open(self.path("limit.csv"), newline="") as file:
+            self.assertEqual([line["stopped"] for line in csv.DictReader(file)], ["limit", ""])
+        table = self.text("bench", "terrain", "--sizes", 128, "--methods", "cone-loop", "--limit",
+                          1e-6, "--size", "8x8")
+        self.assertRegex(table, r"cone-loop .* - .* stopped: limit")
 
     def test_terrain_of_a_file(self):
         row, = self.terrain("--field", ELEVATIONS, "--sizes", 48, "--methods", "linear")["rows"]

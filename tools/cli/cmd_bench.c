@@ -87,10 +87,11 @@ static int check_arguments(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--backend is for bench bake, render and terrain; leave it out");
     }
-    if (hc_cli_given(settings, "limit")
+    if (hc_cli_given(settings, "limit") && !asks_for(cli, "terrain")
         && !(asks_for(cli, "bake") && settings->backend == HC_CLI_GL)) {
-        return hc_cli_fail(cli, HC_CLI_USAGE,
-                           "--limit is for bench bake --backend gl; leave it out");
+        return hc_cli_fail(
+            cli, HC_CLI_USAGE,
+            "--limit is for bench bake --backend gl and bench terrain; leave it out");
     }
     if (settings->either) {
         return hc_cli_fail(cli, HC_CLI_USAGE,

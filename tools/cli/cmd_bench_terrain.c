@@ -16,11 +16,21 @@ static const hc_bench_terrain_row *row_at(const hc_cli_run *r, int i)
     return (const hc_bench_terrain_row *)r->rows + i;
 }
 
+/* Of a row that is not whole. */
+static const char *why(const hc_bench_terrain_row *row)
+{
+    return row->stopped == HC_OK                ? ""
+           : row->stopped == HC_ERROR_CANCELLED ? "limit"
+                                                : hc_result_name(row->stopped);
+}
+
 static void add_tour(cJSON *object, const char *name, const hc_bench_tour *tour)
 {
     cJSON *part = cJSON_AddObjectToObject(object, name);
+    (void)cJSON_AddNumberToObject(part, "frames", tour->frames);
     (void)cJSON_AddNumberToObject(part, "frames_per_second", tour->frames_per_second);
     (void)cJSON_AddNumberToObject(part, "mean_crossings", tour->mean_crossings);
+    (void)cJSON_AddNumberToObject(part, "judged", tour->judged);
     (void)cJSON_AddNumberToObject(part, "lost", tour->lost);
     (void)cJSON_AddNumberToObject(part, "made_up", tour->made_up);
 }
@@ -32,34 +42,66 @@ static cJSON *to_json(const hc_bench_terrain_row *row)
     (void)cJSON_AddNumberToObject(object, "side", row->side);
     (void)cJSON_AddStringToObject(object, "method", row->method);
     (void)cJSON_AddNumberToObject(object, "runs", row->runs);
-    (void)cJSON_AddNumberToObject(object, "frames", row->frames);
     (void)cJSON_AddNumberToObject(object, "seconds", row->seconds);
     (void)cJSON_AddNumberToObject(object, "bytes", row->bytes);
     add_tour(object, "fly", &row->fly);
     add_tour(object, "walk", &row->walk);
+    (void)cJSON_AddStringToObject(object, "stopped", why(row));
     return object;
+}
+
+static void add_csv_tour(char *line, size_t size, const hc_bench_tour *tour)
+{
+    (void)snprintf(line + strlen(line), size - strlen(line), ",%d,%.6g,%.6g,%d,%.6g,%.6g",
+                   tour->frames, tour->frames_per_second, tour->mean_crossings, tour->judged,
+                   tour->lost, tour->made_up);
+}
+
+static void to_csv(char *line, size_t size, const hc_bench_terrain_row *row)
+{
+    (void)snprintf(line, size, "%s,%d,%s,%d,%.6g,%.0f", row->field, row->side, row->method,
+                   row->runs, row->seconds, row->bytes);
+    add_csv_tour(line, size, &row->fly);
+    add_csv_tour(line, size, &row->walk);
+    (void)snprintf(line + strlen(line), size - strlen(line), ",%s\n", why(row));
+}
+
+/* Numbers that there are none of are a dash. */
+static void show_number(hc_cli *cli, int width, int digits, bool there, double number)
+{
+    if (there) {
+        hc_cli_say(cli, " %*.*f", width, digits, number);
+    } else {
+        hc_cli_say(cli, " %*s", width, "-");
+    }
+}
+
+static void show_tours(hc_cli *cli, const hc_bench_terrain_row *row)
+{
+    const hc_bench_tour *tours[] = { &row->fly, &row->walk };
+    for (int i = 0; i < 2; i++) {
+        show_number(cli, 7, 3, tours[i]->frames > 0, tours[i]->frames_per_second);
+    }
+    for (int i = 0; i < 2; i++) { /* triangles make no moves */
+        show_number(cli, 6, 1, tours[i]->mean_crossings > 0.0, tours[i]->mean_crossings);
+    }
+    for (int i = 0; i < 2; i++) {
+        show_number(cli, 8, 3, tours[i]->judged > 0, 100.0 * (tours[i]->lost + tours[i]->made_up));
+    }
 }
 
 static void row_done(void *user, const hc_bench_terrain_row *row)
 {
-    hc_cli_run          *r    = user;
-    const hc_bench_tour *fly  = &row->fly;
-    const hc_bench_tour *walk = &row->walk;
-    char                 line[LINE_MAX_BYTES];
-    (void)snprintf(line, sizeof line,
-                   "%s,%d,%s,%d,%d,%.6g,%.0f,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,%.6g,"
-                   "%.6g\n",
-                   row->field, row->side, row->method, row->runs, row->frames, row->seconds,
-                   row->bytes, fly->frames_per_second, fly->mean_crossings, fly->lost, fly->made_up,
-                   walk->frames_per_second, walk->mean_crossings, walk->lost, walk->made_up);
+    hc_cli_run *r = user;
+    char        line[LINE_MAX_BYTES];
+    to_csv(line, sizeof line, row);
     if (!hc_cli_run_add(r, row, sizeof *row, to_json(row), line)) {
         return;
     }
-    hc_cli_say(r->cli, "%-8s %5d %-10s %8.3f %8.1f %7.2f %7.2f %6.1f %6.1f %8.3f %8.3f\n",
-               row->field, row->side, row->method, row->seconds, row->bytes / (1024.0 * 1024.0),
-               fly->frames_per_second, walk->frames_per_second, fly->mean_crossings,
-               walk->mean_crossings, 100.0 * (fly->lost + fly->made_up),
-               100.0 * (walk->lost + walk->made_up));
+    hc_cli_say(r->cli, "%-8s %5d %-10s %8.3f", row->field, row->side, row->method, row->seconds);
+    show_number(r->cli, 8, 1, row->bytes > 0.0, row->bytes / (1024.0 * 1024.0));
+    show_tours(r->cli, row);
+    hc_cli_say(r->cli, "%s%s\n", row->stopped != HC_OK ? "  stopped: " : "", why(row));
     hc_cli_run_flush(r);
 }
 
@@ -71,7 +113,7 @@ static const hc_bench_terrain_row *find(const hc_cli_run *r, const hc_bench_terr
 {
     for (int i = 0; i < r->count; i++) {
         const hc_bench_terrain_row *row = row_at(r, i);
-        if (row->field == like->field && strcmp(row->method, method) == 0
+        if (row->field == like->field && strcmp(row->method, method) == 0 && row->fly.frames > 0
             && (side == 0 || row->side == side)) {
             return row;
         }
@@ -98,10 +140,13 @@ static void add_figures(hc_cli_run *r)
 {
     cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
     for (int i = 0; i < r->count; i++) {
-        const hc_bench_terrain_row *row    = row_at(r, i);
-        const hc_bench_terrain_row *first  = find(r, row, row->method, 0);
-        const hc_bench_terrain_row *pdm    = find(r, row, "pdm", row->side);
-        cJSON                      *object = cJSON_CreateObject();
+        const hc_bench_terrain_row *row   = row_at(r, i);
+        const hc_bench_terrain_row *first = find(r, row, row->method, 0);
+        const hc_bench_terrain_row *pdm   = find(r, row, "pdm", row->side);
+        if (row->fly.frames == 0) {
+            continue;
+        }
+        cJSON *object = cJSON_CreateObject();
         (void)cJSON_AddStringToObject(object, "field", row->field);
         (void)cJSON_AddNumberToObject(object, "side", row->side);
         (void)cJSON_AddStringToObject(object, "method", row->method);
@@ -123,6 +168,7 @@ static hc_result measure(hc_cli_run *r)
                                                 .width    = settings->size.width,
                                                 .height   = settings->size.height,
                                                 .backend  = hc_cli_drawn_by(settings),
+                                                .limit    = (double)settings->limit,
                                                 .row_done = row_done,
                                                 .user     = r };
     return hc_bench_terrain(&options, &r->cli->log);
@@ -142,11 +188,12 @@ int hc_cli_run_bench_terrain(hc_cli *cli)
     static const hc_cli_run_kind kind = {
         .name    = "terrain",
         .fields  = "fbm",
-        .sides   = "256,512,1024,2048,4096",
+        .sides   = "256,512,1024,2048,4096,8192",
         .methods = hc_bench_terrain_method,
-        .columns = "field,side,method,runs,frames,seconds,bytes,fly_frames_per_second,"
-                   "fly_crossings,fly_lost,fly_made_up,walk_frames_per_second,walk_crossings,"
-                   "walk_lost,walk_made_up\n",
+        .columns = "field,side,method,runs,seconds,bytes,fly_frames,fly_frames_per_second,"
+                   "fly_crossings,fly_judged,fly_lost,fly_made_up,walk_frames,"
+                   "walk_frames_per_second,walk_crossings,walk_judged,walk_lost,walk_made_up,"
+                   "stopped\n",
         .head    = head,
         .measure = measure,
         .figures = add_figures

@@ -411,7 +411,7 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "N,...",
       .allowed  = "sides from 1 to 1048576, separated by commas",
       .help = "Sides of the square fields (default 512,4096; trace: 1024; steps: 64,128,256,512,"
-              "1024; render: 512; terrain: 256,512,1024,2048,4096)." },
+              "1024; render: 512; terrain: 256,512,1024,2048,4096,8192)." },
     { .name     = "field",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -430,8 +430,8 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
                   "sizes); trace: these casters (default: all that are built in); steps: of fast, "
                   "safe and maxmip (default: all); terrain: those of render terrain, and "
-                  "mesh and lod, its polygons (default: maxmip,pdm,safe,cone-loop; cpu: also fast; "
-                  "gl: also mesh,lod)." },
+                  "mesh and lod, its polygons (default: maxmip,pdm,safe,cone-loop,qdm; cpu: also "
+                  "fast; gl: also mesh,lod)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -452,7 +452,8 @@ const hc_cli_option hc_cli_options[] = {
       .metavar  = "SECONDS",
       .allowed  = "numbers above 0, up to 86400",
       .help = "bake, --backend gl: stop a run that would take longer, and say how long it would "
-              "(default 15)." },
+              "(default 15); terrain: of a method at one size: stop what takes longer to get ready, "
+              "and draw no further frames (default 60)." },
     { .name     = "json",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
