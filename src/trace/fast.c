@@ -98,14 +98,14 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
 
 static size_t pages(size_t bytes)
 {
-    const size_t unit = bytes >= 4 * (size_t)PAGE ? PAGE : 64;
+    const size_t unit = bytes >= (size_t)PAGE ? PAGE : 64;
     return (bytes + unit - 1) / unit * unit;
 }
 
 /* Large pages, where there are: rays jump about, and each small page costs a look-up. */
 static void *take(size_t bytes)
 {
-    const size_t unit  = bytes >= 4 * (size_t)PAGE ? PAGE : 64;
+    const size_t unit  = bytes >= (size_t)PAGE ? PAGE : 64;
     void        *taken = aligned_alloc(unit, pages(bytes));
 #if defined(__linux__)
     if (taken != NULL && unit == PAGE) {

@@ -349,15 +349,23 @@ static inline void see_to(job *j, pack *p)
     }
 }
 
-/* Not those at the end: how often a ray is marched must not depend on when it is seen to. */
+/* Not those at the end: how often a ray is marched must not depend on when it is seen to. All blocks
+ * are asked for before any is waited for. */
 static inline void march_all(job *j, ground kind)
 {
+    standing on[PACKS];
+    unsigned ready[PACKS];
     for (int k = 0; k < PACKS; k++) {
-        pack          *p      = &j->packs[k];
+        const pack    *p      = &j->packs[k];
         const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
-        const unsigned ready  = p->active & ~p->near & ~p->held & before;
-        if (ready != 0) { /* of a single ray's packs, one */
-            march(j->fast, p, ready, kind);
+        ready[k]              = p->active & ~p->near & ~p->held & before;
+        if (ready[k] != 0) { /* of a single ray's packs, one */
+            on[k] = find_blocks(j->fast, p, ready[k]);
+        }
+    }
+    for (int k = 0; k < PACKS; k++) {
+        if (ready[k] != 0) {
+            march(j->fast, &j->packs[k], ready[k], &on[k], kind);
         }
     }
 }

@@ -81,6 +81,37 @@ static inline hc_v to_leave(const hc_fast *fast, const pack *p, const place *at,
     return hc_v_add(wall, hc_v_set(fast->blur));
 }
 
+/* hc_fast_corner, hc_fast_block_at */
+static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
+{
+    const hc_i row  = hc_i_mul(hc_i_right(y, hc_i_set(bits)), stride);
+    const hc_i rest = hc_i_and(y, hc_i_set((1 << bits) - 1));
+    return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
+}
+
+/* Where lanes stand, and what is known of their blocks. */
+typedef struct standing {
+    place at;
+    hc_i  level, shift;
+    hc_i  block_x, block_y;
+    hc_i  top, codes;
+} standing;
+
+static inline standing find_blocks(const hc_fast *fast, const pack *p, unsigned active)
+{
+    standing on;
+    on.at            = find_place(p);
+    on.level         = hc_i_load(p->level);
+    on.shift         = hc_i_add(hc_i_add(on.level, on.level), hc_i_set(HC_FAST_BASE_BITS));
+    on.block_x       = hc_i_right(on.at.cell_x, on.shift);
+    on.block_y       = hc_i_right(on.at.cell_y, on.shift);
+    const hc_i row   = hc_i_lookup(fast->stride, on.level);
+    const hc_i start = hc_i_lookup(fast->start, on.level);
+    const hc_i index = index_of(on.block_x, on.block_y, row, HC_FAST_BLOCK_BITS);
+    hc_gather_pairs(&on.top, &on.codes, fast->blocks, hc_i_add(index, start), active);
+    return on;
+}
+
 /* How far a lane has come into its block along one axis. */
 static inline hc_v come_in(hc_v x, hc_i block, hc_i shift, const int32_t *ahead)
 {
@@ -91,33 +122,25 @@ static inline hc_v come_in(hc_v x, hc_i block, hc_i shift, const int32_t *ahead)
 
 /* Lanes so near to a wall that they run along it, or cut a corner, that rounding may have put them
  * on the wrong side. It matters on steps alone, which jump there: blocks of patches are raised. */
-static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const place *at,
-                                   hc_i block_x, hc_i block_y, hc_i shift, hc_v out)
+static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const standing *on, hc_v out)
 {
-    const hc_v     close   = hc_v_set(6.0F * fast->blur);
-    const hc_v     side    = hc_v_from_i(hc_i_left(hc_i_set(1), shift));
-    const hc_v     low_x   = come_in(at->x, block_x, shift, p->ray.ahead_x);
-    const hc_v     low_y   = come_in(at->y, block_y, shift, p->ray.ahead_y);
-    const hc_v     end_x   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dx)), low_x);
-    const hc_v     end_y   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dy)), low_y);
-    const hc_v     far     = hc_v_sub(side, close);
-    const unsigned from_x  = hc_v_greater(close, low_x);
-    const unsigned from_y  = hc_v_greater(close, low_y);
-    const unsigned start   = ~hc_v_greater(at->s, hc_v_set(0.0F));
-    const unsigned over_x  = hc_v_greater(end_x, far);
-    const unsigned over_y  = hc_v_greater(end_y, far);
-    const unsigned along_x = hc_v_greater(close, end_x);
-    const unsigned along_y = hc_v_greater(close, end_y);
+    const place *const at      = &on->at;
+    const hc_v         close   = hc_v_set(6.0F * fast->blur);
+    const hc_v         side    = hc_v_from_i(hc_i_left(hc_i_set(1), on->shift));
+    const hc_v         low_x   = come_in(at->x, on->block_x, on->shift, p->ray.ahead_x);
+    const hc_v         low_y   = come_in(at->y, on->block_y, on->shift, p->ray.ahead_y);
+    const hc_v         end_x   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dx)), low_x);
+    const hc_v         end_y   = hc_v_about_muladd(out, hc_v_abs(hc_v_load(p->ray.dy)), low_y);
+    const hc_v         far     = hc_v_sub(side, close);
+    const unsigned     from_x  = hc_v_greater(close, low_x);
+    const unsigned     from_y  = hc_v_greater(close, low_y);
+    const unsigned     start   = ~hc_v_greater(at->s, hc_v_set(0.0F));
+    const unsigned     over_x  = hc_v_greater(end_x, far);
+    const unsigned     over_y  = hc_v_greater(end_y, far);
+    const unsigned     along_x = hc_v_greater(close, end_x);
+    const unsigned     along_y = hc_v_greater(close, end_y);
     return (from_x & from_y) | (start & (from_x | from_y)) | (over_x & (over_y | along_y))
            | (over_y & along_x);
-}
-
-/* hc_fast_corner, hc_fast_block_at */
-static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
-{
-    const hc_i row  = hc_i_mul(hc_i_right(y, hc_i_set(bits)), stride);
-    const hc_i rest = hc_i_and(y, hc_i_set((1 << bits) - 1));
-    return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
 }
 
 /* What of the ground the marching has to see to; always constant, so that each has its own code. */
@@ -165,41 +188,36 @@ static inline hc_i level_after(const hc_fast *fast, const pack *p, const place *
     return hc_i_pick(left, next, level);
 }
 
-/* One block further, or one level deeper, for the lanes in `active`. Those that stand on a single
- * cell and may hit it become `near`. */
-static inline void march(const hc_fast *fast, pack *p, unsigned active, ground kind)
+/* One block further, or one level deeper, for the lanes in `active`, which stand there. Those that
+ * stand on a single cell and may hit it become `near`. */
+static inline void march(const hc_fast *fast, pack *p, unsigned active, const standing *on,
+                         ground kind)
 {
-    const place at      = find_place(p);
-    const hc_i  level   = hc_i_load(p->level);
-    const hc_i  shift   = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
-    const hc_i  block_x = hc_i_right(at.cell_x, shift);
-    const hc_i  block_y = hc_i_right(at.cell_y, shift);
-    const hc_v  out     = to_leave(fast, p, &at, block_x, block_y, shift);
-    const hc_i  index =
-        hc_i_add(index_of(block_x, block_y, hc_i_lookup(fast->stride, level), HC_FAST_BLOCK_BITS),
-                 hc_i_lookup(fast->start, level));
-    hc_i top_bits, codes;
-    hc_gather_pairs(&top_bits, &codes, fast->blocks, index, active);
-    const hc_i code  = hc_i_and(hc_i_right(codes, hc_i_load(p->ray.quadrant)), hc_i_set(255));
-    const hc_v top   = hc_v_of_bits(top_bits);
+    const place *const at    = &on->at;
+    const hc_i         level = on->level;
+    const hc_i         shift = on->shift;
+    const hc_v         out   = to_leave(fast, p, at, on->block_x, on->block_y, shift);
+    const hc_i code  = hc_i_and(hc_i_right(on->codes, hc_i_load(p->ray.quadrant)), hc_i_set(255));
+    const hc_v top   = hc_v_of_bits(on->top);
     const hc_v dz    = hc_v_load(p->ray.dz);
-    const hc_v leave = hc_v_about_muladd(out, dz, at.z);
+    const hc_v leave = hc_v_about_muladd(out, dz, at->z);
     const hc_v down  = hc_v_sub(hc_v_set(0.0F), dz);
 
     const bool     steps  = kind == GROUND_STEPS;
-    const unsigned unsure = steps ? find_unsure(fast, p, &at, block_x, block_y, shift, out) : 0;
-    const unsigned clear  = hc_v_greater(hc_v_min(at.z, leave), top) & active & ~unsure;
-    const unsigned sinks  = hc_v_greater(at.z, top) & active & ~unsure & ~clear;
+    const unsigned unsure = steps ? find_unsure(fast, p, on, out) : 0;
+    const unsigned clear  = hc_v_greater(hc_v_min(at->z, leave), top) & active & ~unsure;
+    const unsigned sinks  = hc_v_greater(at->z, top) & active & ~unsure & ~clear;
     const hc_v     beyond = go_beyond(fast, code, shift, hc_v_sub(leave, top), down, kind);
-    const hc_v     part = hc_v_about_over(hc_v_sub(at.z, top), hc_v_max(down, hc_v_set(0x1p-60F)));
-    const hc_v     step = hc_v_pick(sinks, part, hc_v_add(out, beyond));
-    hc_v_store(p->s, hc_v_pick(clear | sinks, hc_v_add(at.s, step), at.s));
+    const hc_v     fall   = hc_v_max(down, hc_v_set(0x1p-60F));
+    const hc_v     part   = hc_v_about_over(hc_v_sub(at->z, top), fall);
+    const hc_v     step   = hc_v_pick(sinks, part, hc_v_add(out, beyond));
+    hc_v_store(p->s, hc_v_pick(clear | sinks, hc_v_add(at->s, step), at->s));
 
     const unsigned coarse = hc_i_differ(level, hc_i_set(0));
     const unsigned deeper = active & ~clear & coarse;
     const unsigned near   = active & ~clear & ~coarse;
-    const hc_i     next   = level_after(fast, p, &at, step, level, shift, kind);
-    hc_v_store(p->until, hc_v_pick(near, hc_v_add(at.s, out), hc_v_load(p->until)));
+    const hc_i     next   = level_after(fast, p, at, step, level, shift, kind);
+    hc_v_store(p->until, hc_v_pick(near, hc_v_add(at->s, out), hc_v_load(p->until)));
     hc_i_store(p->level,
                hc_i_pick(deeper, hc_i_add(level, hc_i_set(-1)), hc_i_pick(clear, next, level)));
     p->near |= near;
@@ -268,6 +286,22 @@ typedef struct sight {
     unsigned below; /* are certainly below the surface when they leave, before the end */
 } sight;
 
+/* Lanes whose gap is above `slack` on all of a way: at its ends, and between them, where it is a
+ * parabola that hangs `sag` / 4 below their mean. With both ends less the slack, e and l, its lowest
+ * point is above 0 if sqrt(e) + sqrt(l) > sqrt(sag). */
+static inline unsigned stay_above(hc_v enter, hc_v leave, hc_v sag, hc_v slack)
+{
+    const hc_v     none    = hc_v_set(0.0F);
+    const hc_v     e       = hc_v_sub(enter, slack);
+    const hc_v     l       = hc_v_sub(leave, slack);
+    const hc_v     rest    = hc_v_sub(sag, hc_v_add(e, l));
+    const hc_v     product = hc_v_mul(hc_v_mul(e, l), hc_v_set(4.0F));
+    const unsigned ends    = hc_v_greater(hc_v_min(e, l), none);
+    const unsigned hangs   = hc_v_greater(rest, none);
+    const unsigned shallow = hc_v_greater(product, hc_v_mul(rest, rest));
+    return ends & (~hangs | shallow);
+}
+
 /* Lanes on single cells: which may hit their patch? */
 static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sight *seen)
 {
@@ -294,12 +328,11 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const hc_v     leave   = gap_at(&h, hc_v_add(x, run_x), hc_v_add(y, run_y),
                                     hc_v_about_muladd(out, hc_v_load(p->ray.dz), at.z));
     const hc_v     twist   = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
-    const hc_v bulge = hc_v_abs(hc_v_mul(hc_v_mul(twist, hc_v_set(0.25F)), hc_v_mul(run_x, run_y)));
-    const hc_v gap   = hc_v_sub(hc_v_min(enter, leave), bulge);
-    const hc_v over  = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
-    const hc_v slack = hc_v_set(fast->slack);
-    seen->clear      = hc_v_greater(gap, slack) & lanes & ~outside;
-    seen->below      = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
+    const hc_v     sag     = hc_v_sub(hc_v_set(0.0F), hc_v_mul(twist, hc_v_mul(run_x, run_y)));
+    const hc_v     over    = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
+    const hc_v     slack   = hc_v_set(fast->slack);
+    seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
+    seen->below            = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
                   & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;
 }
 
