@@ -262,17 +262,23 @@ static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, un
     return gap_at(&h, hc_v_sub(x, hc_v_from_i(i)), hc_v_sub(y, hc_v_from_i(j)), z);
 }
 
-/* Rays that are certainly below the surface somewhere on their way, and so have hit it. The middle
- * first, then what it leaves out; finer if that finds something. */
+/* Rays that are certainly below the surface somewhere on their way, and so have hit it. Of a way
+ * from ground to ground the middle first, then what it leaves out; a ray that climbs a quarter of
+ * the field's height, as to the sun, is hidden by what is near. Finer if that finds something. */
 static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
 {
     enum { PROBES = 7, COARSE = 3 };
-    static const float parts[PROBES] = { 0.5F, 0.25F, 0.75F, 0.125F, 0.375F, 0.625F, 0.875F };
+    static const float level[PROBES] = { 0.5F, 0.25F, 0.75F, 0.125F, 0.375F, 0.625F, 0.875F };
+    static const float climb[PROBES] = { 0.125F,  0.03125F, 0.25F,  0.015625F,
+                                         0.0625F, 0.375F,   0.1875F };
     const hc_v         slack         = hc_v_set(-fast->slack);
     const hc_v         way           = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
+    const hc_v         rise          = hc_v_mul(way, hc_v_load(ray->dz));
+    const unsigned     climbs        = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
     unsigned           below         = 0;
     for (int k = 0; k < PROBES && below != lanes && (k < COARSE || below != 0); k++) {
-        const hc_v gap = gap_after(fast, ray, hc_v_mul(way, hc_v_set(parts[k])), lanes & ~below);
+        const hc_v part = hc_v_pick(climbs, hc_v_set(climb[k]), hc_v_set(level[k]));
+        const hc_v gap  = gap_after(fast, ray, hc_v_mul(way, part), lanes & ~below);
         below |= hc_v_greater(slack, gap) & lanes;
     }
     return below;
