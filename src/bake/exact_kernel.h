@@ -6,6 +6,7 @@
  * if no sample below it can beat T. Everything that decides about leaving out carries a margin;
  * everything that reaches S is the canonical formula. So the result does not depend on the order of
  * the search, on first guesses or on the instruction set. (docs/algorithms.md, "Exact search".) */
+#include "exact_around.h"
 #include "exact_blocks.h"
 
 /* The least of height(p) + T(p) * distance is a concave function of the distance: between two ends
@@ -148,10 +149,14 @@ INLINE void search_tree(kind k, tile *t)
 
 /* ---- a tile ---- */
 
-INLINE void begin_tile(tile *t, int tile_x, int tile_y)
+INLINE void begin_tile(kind k, tile *t, int tile_x, int tile_y)
 {
     const hc_block_tree *tree   = t->pass->tree;
     const hc_tree_level *blocks = &tree->levels[0];
+    hc_around           *around = &t->scratch->around;
+    if (!around->known || around->pair_x != tile_x / 2 || around->tile_y != tile_y) {
+        look_around(k, t->pass, around, tile_x / 2, tile_y);
+    }
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         const int x     = 2 * tile_x + (part & 1);
         const int y     = 2 * tile_y + (part >> 1);
@@ -163,6 +168,9 @@ INLINE void begin_tile(tile *t, int tile_x, int tile_y)
             const unsigned outside = hc_v_greater(hc_v_set(0.0F), samples);
             t->height[part]        = hc_v_add(hc_v_keep(~outside & 0xFFFFU, samples),
                                               hc_v_keep(outside, hc_v_set(ABOVE_ALL)));
+            t->S[part] =
+                hc_v_keep(~outside & 0xFFFFU, hc_v_load(around->steepness[tile_x % 2][part]));
+            raise_threshold(t, part);
         }
         /* Nothing limits the highest samples. Level lines at the top of the envelope would keep all
          * others that are as high promising. */
@@ -170,28 +178,6 @@ INLINE void begin_tile(tile *t, int tile_x, int tile_y)
         const unsigned lower  = hc_v_greater(hc_v_set(tree->top), lifted);
         t->lifted[part] =
             hc_v_add(hc_v_keep(lower, lifted), hc_v_keep(~lower & 0xFFFFU, hc_v_set(ABOVE_ALL)));
-    }
-}
-
-/* The nine blocks around each part: nearly always needed, and they make good thresholds. */
-INLINE void search_neighbours(tile *t)
-{
-    const hc_tree_level *blocks = &t->pass->tree->levels[0];
-    for (int part = 0; part < HC_TILE_PARTS; part++) {
-        const int x = t->x / 4 + (part & 1);
-        const int y = t->y / 4 + (part >> 1);
-        hc_v      S[4];
-        begin_maxima(t, part, S);
-        for (int dy = -1; dy <= 1; dy++) {
-            for (int dx = -1; dx <= 1; dx++) {
-                if (x + dx >= 0 && y + dy >= 0 && x + dx < blocks->columns
-                    && y + dy < blocks->rows) {
-                    take_near_block(S, t->height[part], t->pass->near,
-                                    hc_tree_node(blocks, x + dx, y + dy), 4 * dx, 4 * dy);
-                }
-            }
-        }
-        end_maxima(t, part, S);
     }
 }
 
@@ -222,8 +208,7 @@ INLINE void search_tile(kind k, float *steepness, const hc_exact_pass *pass, int
                .y          = tile_y * HC_TILE_SIDE,
                .home_image = true,
                .stale      = true };
-    begin_tile(&t, tile_x, tile_y);
-    search_neighbours(&t);
+    begin_tile(k, &t, tile_x, tile_y);
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         guess_from_recent(k, &t, part, 0, HC_RECENT);
     }
