@@ -249,7 +249,9 @@ INLINE void search_blocks(kind k, tile *t)
     const unsigned known = t->scratch->recent_next;
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         search_near(k, t, part);
-        guess_from_recent(k, t, part, known, t->scratch->recent_next);
+        for (unsigned i = known; i != t->scratch->recent_next; i++) {
+            (void)guess_from_recent(k, t, part, (int)(i % HC_RECENT));
+        }
         search_distant(k, t, part);
     }
     t->scratch->near.count = t->scratch->lists[0].count = 0;

@@ -68,6 +68,27 @@ INLINE unsigned promising(kind k, const tile *t, hc_v across, hc_v down, hc_v to
     return found;
 }
 
+/* First guesses: those that were useful a moment ago, then those of the others that the envelope
+ * does not rule out. */
+INLINE void guess(kind k, tile *t)
+{
+    hc_exact_scratch *scratch = t->scratch;
+    const unsigned    first   = scratch->recent_useful;
+    unsigned          useful  = guess_from_all(k, t, first);
+    unsigned          others  = 0;
+    t->hull                   = draw_envelope(t);
+    for (int i = 0; i < HC_RECENT; i += HC_LANES) {
+        const hc_v across = hc_v_sub(hc_v_load(scratch->recent_x + i), hc_v_set((float)t->x));
+        const hc_v down   = hc_v_sub(hc_v_load(scratch->recent_y + i), hc_v_set((float)t->y));
+        const hc_v tops =
+            hc_v_sub(hc_v_load(scratch->recent_height + i), hc_v_set(t->pass->tree->base));
+        others |= promising(k, t, across, down, tops, 1) << i;
+    }
+    const unsigned more    = guess_from_all(k, t, others & ~first);
+    scratch->recent_useful = useful | more;
+    t->stale               = more != 0;
+}
+
 /* ---- the tree ---- */
 
 INLINE void list_children(hc_node_list *list, unsigned found, int x, int y, const float *entries)
@@ -209,9 +230,7 @@ INLINE void search_tile(kind k, float *steepness, const hc_exact_pass *pass, int
                .home_image = true,
                .stale      = true };
     begin_tile(k, &t, tile_x, tile_y);
-    for (int part = 0; part < HC_TILE_PARTS; part++) {
-        guess_from_recent(k, &t, part, 0, HC_RECENT);
-    }
+    guess(k, &t);
     search_tree(k, &t);
     search_images(k, &t);
     for (int part = 0; part < HC_TILE_PARTS; part++) {

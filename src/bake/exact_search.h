@@ -90,6 +90,7 @@ typedef struct hc_exact_scratch {
     hc_around       around;
     float           recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
     unsigned        recent_next;
+    unsigned        recent_useful; /* bit i: number i raised thresholds of the last tile */
 } hc_exact_scratch;
 
 /* Search one tile: the largest steepness of each sample into `steepness` (HC_TILE_SIDE rows of
