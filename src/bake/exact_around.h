@@ -26,16 +26,18 @@ typedef struct patch_pairs {
 
 static void cut_patch(patch *p, const hc_tree_level *blocks, int pair_x, int tile_y)
 {
+    float outside[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        outside[i] = HC_TREE_OUTSIDE;
+    }
     for (int i = 0; i < PATCH_ROWS / 4; i++) {
         for (int j = 0; j < PATCH_WIDTH / 4; j++) {
-            static const float outside[4] = { HC_TREE_OUTSIDE, HC_TREE_OUTSIDE, HC_TREE_OUTSIDE,
-                                              HC_TREE_OUTSIDE };
-            const int          x      = (pair_x * HC_LANES - PATCH_EDGE) / 4 + j;
-            const int          y      = (tile_y * HC_TILE_SIDE - PATCH_EDGE) / 4 + i;
-            const bool         inside = x >= 0 && y >= 0 && x < blocks->columns && y < blocks->rows;
-            const float       *from   = inside ? hc_tree_node(blocks, x, y) : outside;
+            const int    x      = (pair_x * HC_LANES - PATCH_EDGE) / 4 + j;
+            const int    y      = (tile_y * HC_TILE_SIDE - PATCH_EDGE) / 4 + i;
+            const bool   inside = x >= 0 && y >= 0 && x < blocks->columns && y < blocks->rows;
+            const float *from   = inside ? hc_tree_node(blocks, x, y) : outside;
             for (int r = 0; r < 4; r++) {
-                memcpy(&p->sample[4 * i + r][4 * j], from + (inside ? 4 * r : 0), sizeof outside);
+                memcpy(&p->sample[4 * i + r][4 * j], from + 4 * r, 4 * sizeof *from);
             }
         }
     }
@@ -46,9 +48,8 @@ INLINE void pair_columns(kind k, const hc_exact_pass *pass, patch_pairs *pairs, 
     for (int row = AROUND_FIRST; row < PATCH_ROWS - AROUND_FIRST; row++) {
         const float *middle = &p->sample[row][PATCH_EDGE];
         for (int dx = 0; dx <= HC_AROUND_REACH; dx++) {
-            const hc_v high = k.quadrant
-                                  ? hc_v_load(middle + pass->sign_u * dx)
-                                  : hc_v_max(hc_v_load(middle - dx), hc_v_load(middle + dx));
+            const hc_v high = k.quadrant ? hc_v_load(middle + pass->sign_u * dx)
+                                         : hc_v_max(hc_v_load(middle - dx), hc_v_load(middle + dx));
             hc_v_store(pairs->high[row][dx], high);
         }
     }
@@ -77,9 +78,9 @@ INLINE hc_v steepest_around(kind k, const hc_exact_pass *pass, const patch_pairs
     hc_v S[2] = { hc_v_set(0.0F), hc_v_set(0.0F) };
     for (int far = 1; far <= HC_AROUND_REACH; far++) {
         for (int close = 0; close <= far; close++) {
-            const hc_v  one     = highest_at(k, pass, pairs, row, close, far);
-            const hc_v  other   = highest_at(k, pass, pairs, row, far, close);
-            const float weight  = pass->near->around[far][close];
+            const hc_v  one    = highest_at(k, pass, pairs, row, close, far);
+            const hc_v  other  = highest_at(k, pass, pairs, row, far, close);
+            const float weight = pass->near->around[far][close];
             if (square) {
                 S[0] = steepest_of(S[0], hc_v_max(one, other), height, weight);
             } else {
@@ -113,8 +114,8 @@ INLINE void look_around(kind k, const hc_exact_pass *pass, hc_around *around, in
     pair_columns(k, pass, &pairs, &p);
     for (int row = 0; row < HC_TILE_SIDE; row++) {
         const hc_v height = hc_v_load(&p.sample[PATCH_EDGE + row][PATCH_EDGE]);
-        const hc_v S      = square ? steepest_around(k, pass, &pairs, PATCH_EDGE + row, height, true)
-                                   : steepest_around(k, pass, &pairs, PATCH_EDGE + row, height, false);
+        const hc_v S = square ? steepest_around(k, pass, &pairs, PATCH_EDGE + row, height, true)
+                              : steepest_around(k, pass, &pairs, PATCH_EDGE + row, height, false);
         keep_around(around, row, S);
     }
     around->pair_x = pair_x;

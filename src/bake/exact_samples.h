@@ -12,19 +12,8 @@ INLINE hc_v take_near(hc_v S, hc_v height, float sample, const float *weights)
     return hc_v_max(hc_v_mul(rise, hc_v_load(weights)), S);
 }
 
-/* All samples of a near block. Maxima in turn: one chain would take longer than all the rest. */
-INLINE void take_near_block(hc_v S[4], hc_v height, const hc_near_table *table,
-                            const float *samples, int dx, int dy)
-{
-    for (int c = 0; c < 4; c++) {
-        const float *weights = hc_near_weights(table, dx + c, dy);
-        for (int r = 0; r < 4; r++) {
-            S[c] = take_near(S[c], height, samples[4 * r + c], weights - 4 * r);
-        }
-    }
-}
-
-/* Four maxima begin with S and end in S, which lets T rise. */
+/* Four maxima in turn begin with S and end in S, which lets T rise: one chain would take longer than
+ * all the rest. */
 INLINE void begin_maxima(const tile *t, int part, hc_v S[4])
 {
     for (int i = 0; i < 4; i++) {

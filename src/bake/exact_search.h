@@ -86,6 +86,7 @@ typedef struct hc_around {
 typedef struct hc_exact_scratch {
     hc_node_list    lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
     hc_node_list    near;
+    hc_node_list    sifted; /* lists[0], as far as a part needs it */
     hc_near_samples wanted;
     hc_around       around;
     float           recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
