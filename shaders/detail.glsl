@@ -6,8 +6,8 @@
  *     float left = 1.0;
  *     hc_hit hit = hc_nearest_detail(origin, direction, 1e9, left);
  *
- * Needs an HC_METHOD with patches (not HC_QDM), and a field that does not wrap. By steps instead of
- * safely: #define HC_DETAIL_STEPS */
+ * Needs a field that does not wrap. On flat tops (HC_STEPS, HC_QDM) the mask is a share for each. By
+ * steps instead of safely: #define HC_DETAIL_STEPS */
 
 #define HC_GRIDS 5
 #define HC_GROUND 4 /* grids 0 .. are those of details */
@@ -41,6 +41,7 @@ uniform vec2      hc_detail_fade;       /* distances at which they begin to sink
 #define HC_BISECTIONS 8
 #define HC_LEAST_FALL (1.0 / 16.0)
 #define HC_EMERGED (1.0 / 1048576.0)
+#define HC_CAME_UP (1.0 / 8192.0)
 
 /* ---- the first root -------------------------------------------------------------------------- */
 
@@ -112,6 +113,10 @@ hc_patch hc_mask_patch(int detail, ivec2 cell)
     }
     ivec2 a = clamp(cell, ivec2(0), hc_size - 1);
     ivec2 b = clamp(cell + 1, ivec2(0), hc_size - 1);
+    if (HC_TOPS) {
+        hc_fetch_count += 1;
+        return hc_patch(texelFetch(hc_mask, a, 0)[detail], vec2(0.0), 0.0);
+    }
     hc_fetch_count += 4;
     return hc_through(vec4(texelFetch(hc_mask, a, 0)[detail],
                            texelFetch(hc_mask, ivec2(b.x, a.y), 0)[detail],
@@ -180,13 +185,17 @@ struct hc_walk {
     hc_patch shares[4]; /* of the mask, in this cell of the ground */
     int      steps, level; /* level: of blocks of texels; 0: texels */
     bool     emerged;
+    bool     rising; /* the ray is under the detail, and has not hit it */
+    bool     faced;  /* it has come to another top just now */
+    bool     chosen; /* which details there are in the ground's cell */
 };
 
 hc_walk hc_w; /* not handed on: copies of arrays are what compilers are slow with */
 
+/* Called from few places, since drivers put a copy of a function wherever it is called from. */
 void hc_choose_details(float r)
 {
-    for (int i = 0; i < hc_detail_count; i++) {
+    for (int i = 0; i < hc_detail_count && !hc_w.chosen; i++) {
         hc_patch mask = hc_mask_patch(i, hc_w.grids[HC_GROUND].cell);
         bool     none = mask.base == 0.0 && mask.slope == vec2(0.0) && mask.twist == 0.0;
         if (!none && !hc_w.grids[i].used) {
@@ -195,6 +204,7 @@ void hc_choose_details(float r)
         hc_w.shares[i]     = mask;
         hc_w.grids[i].used = !none;
     }
+    hc_w.chosen = true;
 }
 
 /* ---- rays ------------------------------------------------------------------------------------ */
@@ -219,6 +229,9 @@ void hc_walk_from(vec3 place, vec3 along, float reach)
                                    hc_reaches(g.place.y, g.along.y, end.y)));
     hc_w.steps       = 0;
     hc_w.emerged     = false;
+    hc_w.faced       = false;
+    hc_w.rising      = false;
+    hc_w.chosen      = false;
     for (int i = 0; i < 4; i++) {
         hc_w.shares[i]      = hc_patch(0.0, vec2(0.0), 0.0);
         hc_w.grids[i]       = hc_grid(vec2(0.0), vec2(0.0), ivec2(0), false);
@@ -237,8 +250,10 @@ void hc_go_in(float r)
     for (int i = 0; i < HC_GROUND; i++) {
         hc_w.grids[i].used = false;
     }
-    hc_w.level = 0;
-    hc_choose_details(r);
+    hc_w.level  = 0;
+    hc_w.faced  = false;
+    hc_w.rising = false;
+    hc_w.chosen = false;
 }
 
 /* ---- gaps ------------------------------------------------------------------------------------ */
@@ -359,46 +374,114 @@ void hc_cross_all(float r)
             hc_grid_cross(hc_w.grids[i], r);
         }
     }
-    if (hc_grid_cross(hc_w.grids[HC_GROUND], r)) {
-        hc_choose_details(r);
-    }
+    hc_w.faced  = hc_grid_cross(hc_w.grids[HC_GROUND], r);
+    hc_w.chosen = hc_w.chosen && !hc_w.faced;
 }
 
-/* From r to the first contact. HC_MISS: to where it has come out of the ground, or to the end.
- * Blocks are walked as nodes of the pyramid are: up a level after each that the ray passes over,
- * down a level where it may not. */
+#ifdef HC_OPEN_SIDES
+
+/* Down in the cell of the ground, where there is no detail? Then `end` is where it ends. */
+bool hc_stays_deep(float r, inout float end)
+{
+    vec2  walls = hc_grid_walls(hc_w.grids[HC_GROUND]);
+    vec3  gap   = hc_ground_gap(r);
+    float wall  = max(min(hc_w.leave, min(walls.x, walls.y)), r);
+    float reach = wall - r;
+    for (int i = 0; i < hc_detail_count; i++) {
+        if (hc_w.grids[i].used) {
+            gap += hc_w.left * hc_detail_cut[i]
+                   * hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], r);
+        }
+    }
+    if (max(gap.x, max(gap.x + 0.5 * reach * gap.y,
+                       gap.x + reach * (gap.y + reach * gap.z))) >= 0.0) {
+        return false;
+    }
+    for (int i = 0; i < HC_GROUND; i++) {
+        hc_w.grids[i].used = false; /* it is left behind, and entered anew */
+    }
+    end = wall;
+    return true;
+}
+
+#else
+#define hc_stays_deep(r, end) false
+#endif
+
+/* Over the walls at the end. True: the ray has come out of the ground. */
+bool hc_goes_over(inout float r, float end)
+{
+    r = end;
+    hc_cross_all(r);
+    hc_w.level   = min(hc_w.level + (hc_w.rising ? 0 : 1), hc_detail_level_max);
+    hc_w.emerged = !hc_w.rising && hc_ground_gap(r).x > HC_EMERGED;
+    return hc_w.emerged;
+}
+
+/* From r to the first contact; rising: to the first after the ray has come up out of the detail.
+ * HC_MISS: to where it has come out of the ground, or to the end. Blocks are walked as nodes of the
+ * pyramid are: up a level after each that the ray passes over, down a level where it may not. Where
+ * it rises a root may be one that it only touches: it goes on behind it, farther from time to
+ * time. */
 float hc_walk_on(inout float r)
 {
+    float slip   = HC_CAME_UP;
     hc_w.emerged = false;
     for (int most = 0; most < 65536; most++) {
-        bool  clears;
-        float end = hc_next_end(r, clears);
+        bool  clears = true;
+        float end    = r;
+        hc_choose_details(r);
+        bool deep = hc_w.rising && hc_stays_deep(r, end);
+        if (!deep) {
+            end = hc_next_end(r, clears);
+        }
         hc_w.steps++;
         if (hc_w.level > 0 && !clears) {
             hc_w.level--;
             continue;
         }
-        if (hc_w.level == 0) {
+        if (hc_w.level == 0 && !deep) {
             float zero;
-            vec4  rest = hc_detail_gap(r, zero);
-            float met  = hc_quartic_first(zero, rest, end - r);
-            if (met < HC_MISS) {
+            vec4  rest  = hc_detail_gap(r, zero);
+            hc_w.rising = hc_w.rising && zero <= 0.0;
+            float turn  = hc_w.rising ? -1.0 : 1.0;
+            float met   = hc_quartic_first(turn * zero, turn * rest, end - r);
+            if (!hc_w.rising && met < HC_MISS) {
+                hc_w.faced = hc_w.faced && met == 0.0;
                 return r + met;
             }
+            if (hc_w.rising && met + slip * (end - r) < end - r) {
+                r += met + slip * (end - r);
+                slip *= 2.0;
+                continue;
+            }
         }
-        if (end >= hc_w.leave) {
+        if (end >= hc_w.leave || hc_goes_over(r, end)) {
             return HC_MISS;
         }
-        r = end;
-        hc_cross_all(r);
-        hc_w.level = min(hc_w.level + 1, hc_detail_level_max);
-        if (hc_ground_gap(r).x > HC_EMERGED) {
-            hc_w.emerged = true;
-            return HC_MISS;
-        }
+        slip = HC_CAME_UP;
     }
     return HC_MISS;
 }
+
+#ifdef HC_OPEN_SIDES
+
+/* Does the ray come in through a side, under the ground, where there is detail? Then `from` is
+ * there. */
+bool hc_comes_in_below(vec3 origin, vec3 along, float t_max, float left, inout float from)
+{
+    hc_path path;
+    int     through;
+    bool    below = hc_enter(origin, along, t_max, path, through) && through < 2
+                 && hc_gap_of(hc_patch_of(path.cell), path, path.cell, path.from).x <= 0.0
+                 && (left >= 0.0 ? left : hc_details_left(path.from)) > 0.0;
+    from = below ? path.from : from;
+    return below;
+}
+
+#else
+#define hc_comes_in_below(origin, along, t_max, left, from) false
+#endif
 
 /* hc_nearest, on to the detail, and to where the ray comes to the ground next. along: of unit
  * length in the world. left: how much of details this ray sees; below 0: as the distance of where
@@ -411,8 +494,12 @@ hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
     float  from  = 0.0;
     float  r     = 0.0;
     int    steps = 0;
+    bool   below = hc_comes_in_below(origin, along, t_max, left, from);
     for (int times = 0; times < 256; times++) {
-        hc_hit next = hc_nearest(origin + from * along, along, t_max - from);
+        hc_hit next = hc_hit(0.0, origin + from * along, 0, 0);
+        if (times > 0 || !below) {
+            next = hc_nearest(next.place, along, t_max - from);
+        }
         steps += next.steps;
         if (times == 0 || next.t > 0.0) { /* else rounded: it is in the ground still */
             hit   = next;
@@ -425,12 +512,13 @@ hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
             hc_w.left = left;
             r         = 0.0;
             hc_go_in(r);
+            hc_w.rising = below && times == 0;
         }
         int   before = hc_w.steps;
         float met    = hc_walk_on(r);
         steps += hc_w.steps - before;
         if (!hc_w.emerged) {
-            hit.flags = met > 0.0 ? 0 : hit.flags;
+            hit.flags = met > 0.0 ? (HC_TOPS && hc_w.faced ? HC_SIDE : 0) : hit.flags;
             hit.place += met < HC_MISS ? met * along : vec3(0.0);
             hit.t = met < HC_MISS ? hit.t + met : HC_MISS;
             break;
@@ -449,24 +537,33 @@ float hc_gap_at(float r)
 {
     float zero;
     hc_go_in(r);
+    hc_choose_details(r);
     hc_detail_gap(r, zero);
     hc_w.steps++;
     return zero;
 }
 
-/* How far it is through the layer that details are cut from, as if the ground went on as it lies
+/* How far it is from `first` through the layer that details are cut from, as if the ground went on as it lies
  * there, and a quarter more. 0: there are no details. */
-float hc_way_through(void)
+float hc_way_through(float first)
 {
     float deep = 0.0;
     for (int i = 0; i < hc_detail_count; i++) {
-        vec3 share = hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], 0.0);
+        vec3 share = hc_along_ray(hc_w.shares[i], hc_w.grids[HC_GROUND], first);
         deep += hc_w.left * hc_detail_cut[i] * share.x;
     }
-    vec3 gap = hc_ground_gap(0.0);
+    vec3 gap = hc_ground_gap(first);
     return deep > 0.0
                ? 1.25 * (deep + max(gap.x, 0.0)) / max(-gap.y, HC_LEAST_FALL * hc_world)
                : 0.0;
+}
+
+/* From a face of a top on it is that top's detail, on whichever side of the face the hit was rounded
+ * to. */
+float hc_way_into_face(void)
+{
+    vec2 along = abs(hc_w.grids[HC_GROUND].along);
+    return 1.0 / (1024.0 * max(along.x, along.y));
 }
 
 /* hc_nearest, then equal steps and bisection, as in the RaycastTerrain sample; names as above.
@@ -479,14 +576,16 @@ hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
         return hit;
     }
     hc_walk_from(hit.place, along, t_max - hit.t);
-    hc_w.left  = left;
-    float way  = 0.0;
-    float gap  = 1.0;                /* at the hit itself */
-    vec2  ends = vec2(0.0, HC_MISS); /* above and below */
+    hc_w.left   = left;
+    float first = HC_TOPS && (hit.flags & HC_SIDE) != 0 ? hc_way_into_face() : 0.0;
+    float way   = 0.0;
+    float gap   = 1.0;                  /* at the hit itself */
+    vec2  ends  = vec2(first, HC_MISS); /* above and below */
     for (int i = 0; i <= hc_detail_steps + HC_BISECTIONS && gap > 0.0; i++) {
         bool  halves = i > hc_detail_steps;
         bool  found  = ends.y < HC_MISS;
-        float r      = halves ? 0.5 * (ends.x + ends.y) : way * float(i) / float(hc_detail_steps);
+        float r      = halves ? 0.5 * (ends.x + ends.y)
+                              : first + way * float(i) / float(hc_detail_steps);
         if (halves && !found) {
             break;
         }
@@ -496,16 +595,19 @@ hc_hit hc_nearest_detail(vec3 origin, vec3 along, float t_max, inout float left)
         }
         float here = hc_gap_at(r);
         if (i == 0) {
-            way = hc_way_through();
+            way = hc_way_through(first);
             gap = way > 0.0 ? here : 0.0;
         } else {
             ends = here > 0.0 ? vec2(r, ends.y) : vec2(ends.x, r);
         }
     }
     if (ends.y < HC_MISS) {
+        hc_go_in(ends.x);
+        ivec2 before = hc_w.grids[HC_GROUND].cell;
+        hc_go_in(ends.y);
         hit.t += ends.y;
         hit.place += ends.y * along;
-        hit.flags = 0;
+        hit.flags = HC_TOPS && before != hc_w.grids[HC_GROUND].cell ? HC_SIDE : 0;
     } else if (gap > 0.0) {
         hit.flags |= HC_UNCONVERGED;
     }
@@ -581,10 +683,11 @@ vec3 hc_detail_colour(int detail, vec2 at)
     return mix(top, low, f.y);
 }
 
-/* Laid over that of the ground. Shares that come to more than 1 are as good as 1. */
-vec3 hc_details_colour(vec3 colour, vec2 uv, float left)
+/* Laid over that of the ground. Shares that come to more than 1 are as good as 1. top: uv, but of a
+ * face between tops a place on that which it is of. */
+vec3 hc_details_colour(vec3 colour, vec2 uv, vec2 top, float left)
 {
-    vec2  ground = hc_on_ground(uv);
+    vec2  ground = hc_on_ground(top);
     ivec2 cell   = ivec2(floor(ground));
     vec3  sum    = vec3(0.0);
     float shares = 0.0;

@@ -263,8 +263,8 @@ vec3 across(vec3 normal)
 vec3 wall_normal(vec3 place, vec3 along)
 {
     vec2 at   = place.xy * hc_steps - hc_zero;
-    vec2 away = HC_TOPS ? abs(at - floor(at + 0.5))
-                                    : min(abs(at - hc_low()), abs(at - hc_high()));
+    vec2 away = min(abs(at - hc_low()), abs(at - hc_high()));
+    away      = HC_TOPS ? min(away, abs(at - floor(at + 0.5))) : away;
     return across(away.x <= away.y ? vec3(along.x > 0.0 ? -1.0 : 1.0, 0.0, 0.0)
                                    : vec3(0.0, along.y > 0.0 ? -1.0 : 1.0, 0.0));
 }
@@ -300,19 +300,36 @@ hc_hit nearest(vec3 origin, vec3 along, float reach)
 #endif
 }
 
-/* The ray from the sun to a hit, which ends before it. */
-bool in_shadow(vec3 place)
+/* Must it be asked whether this sees the sun? */
+bool asks_sun(vec3 normal)
+{
+    return u_shadows && u_map_side == 0 && dot(normal, u_sun) > 0.0;
+}
+
+/* The ray from the sun to a hit, which ends before it: where it begins, and how long it is. */
+vec3 sun_ray(vec3 place, out float reach)
 {
     vec3  along = u_sun * u_scale;
     float away  = way_out(place, along) + u_shadow_slip;
-    float reach  = away - u_shadow_slip;
-    hc_hit cause = nearest(place + away * along, -along, reach);
+    reach       = away - u_shadow_slip;
+    return place + away * along;
+}
+
+bool hides(hc_hit cause)
+{
 #ifdef HC_DETAIL_STEPS
     if ((cause.flags & HC_UNCONVERGED) != 0) {
         return false; /* steps that come to nothing hide nothing */
     }
 #endif
     return cause.t < HC_MISS;
+}
+
+bool in_shadow(vec3 place)
+{
+    float reach;
+    vec3  from = sun_ray(place, reach);
+    return hides(nearest(from, -u_sun * u_scale, reach));
 }
 
 /* ---- bodies ---------------------------------------------------------------------------------- */
@@ -417,8 +434,8 @@ float map_light(vec3 point, float facing)
     return mix(mix(open_.x, open_.y, f.x), mix(open_.z, open_.w, f.x), f.y);
 }
 
-/* Share of the sun's light; from_eye: in the world */
-float lit_at(vec3 place, vec3 normal, vec3 from_eye)
+/* Share of the sun's light; from_eye: in the world; dark: it is known to lie in shadow */
+float lit_at(vec3 normal, vec3 from_eye, bool dark)
 {
     float facing = dot(normal, u_sun);
     vec3  point  = u_anchor + from_eye;
@@ -428,16 +445,17 @@ float lit_at(vec3 place, vec3 normal, vec3 from_eye)
     if (u_map_side > 0) {
         return map_light(point, facing);
     }
-    return in_shadow(place) || body_shades(point) ? 0.0 : 1.0;
+    return dark || body_shades(point) ? 0.0 : 1.0;
 }
 
-vec3 see_ground(hc_hit hit, vec3 normal, vec3 direction, vec3 from_eye, float top)
+vec3 see_ground(hc_hit hit, vec3 normal, float lit, vec3 direction, float top)
 {
-    float lit   = lit_at(hit.place, normal, from_eye);
+    bool  face  = (hit.flags & HC_SIDE) != 0;
+    vec2  on    = hit.place.xy - (face ? 0.25 * sign(normal.xy * u_scale.xy) / hc_steps : vec2(0.0));
     vec3 colour = is_cut(hit) ? CUT_GROUND
                               : ground_colour(hit.place, normal, u_footprint * hit.t);
 #ifdef DETAILS
-    colour = is_cut(hit) ? colour : hc_details_colour(colour, hit.place.xy, detail_left);
+    colour = is_cut(hit) ? colour : hc_details_colour(colour, hit.place.xy, on, detail_left);
 #endif
     return haze(light(colour, normal, lit), direction, top, hit.t);
 }
@@ -448,20 +466,6 @@ float depth_of(float along)
 }
 
 /* ---- pixels ---------------------------------------------------------------------------------- */
-
-/* The field has no end below, its picture does. */
-hc_hit look(vec3 place, vec3 along)
-{
-#ifdef SKY
-    return hc_hit(HC_MISS, place, 0, 0);
-#endif
-    detail_left = u_details_left;
-    hc_hit hit  = nearest(place, along, 1e30);
-    if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
-        hit.t = HC_MISS;
-    }
-    return hit;
-}
 
 #ifdef BODIES
 
@@ -483,7 +487,7 @@ void main(void)
 #ifdef DETAILS
     detail_left = hc_details_left(distance_);
 #endif
-    float lit    = lit_at(place, normal, v_from_eye);
+    float lit    = lit_at(normal, v_from_eye, asks_sun(normal) && in_shadow(place));
     vec3 colour  = haze(light(v_colour, normal, lit), direction, u_haze_top - shift.z, distance_);
     o_light      = vec4(colour, distance_);
     o_normal     = vec4(normal, place.z);
@@ -517,7 +521,8 @@ void main(void)
     hc_hit hit   = hc_hit(distance_, on_patch(v_place), 0, 0);
     vec3 normal  = normal_at(hit, direction * u_scale);
     vec3 lit_by  = (hit.place - u_place) / u_scale;
-    vec3 colour  = see_ground(hit, normal, direction, lit_by, u_haze_top - shift.z);
+    float lit    = lit_at(normal, lit_by, asks_sun(normal) && in_shadow(hit.place));
+    vec3 colour  = see_ground(hit, normal, lit, direction, u_haze_top - shift.z);
     o_light      = vec4(colour, distance_);
     o_normal     = vec4(normal, v_place.z);
     o_counts     = vec4(0.0, 0.0, 1.0, 0.0);
@@ -525,6 +530,51 @@ void main(void)
 }
 
 #else
+
+/* What the eye's ray comes to. */
+struct sight {
+    hc_hit hit;
+    vec3   normal; /* in the world; 0: it comes to nothing */
+    int    fetches, crossings;
+    bool   dark; /* in shadow */
+};
+
+/* The field has no end below, its picture does. The ray from the sun follows that of the eye
+ * through the same call: drivers put a copy of a function wherever it is called from, and compile
+ * for as much longer. */
+sight look(vec3 place, vec3 along)
+{
+    sight seen  = sight(hc_hit(HC_MISS, place, 0, 0), vec3(0.0), 0, 0, false);
+    vec3  from  = place;
+    vec3  way   = along;
+    float reach = 1e30;
+    detail_left = u_details_left;
+#ifndef SKY
+    for (int rays = 0; rays < (u_shadows ? 2 : 1); rays++) {
+        hc_hit hit = nearest(from, way, reach);
+        if (rays > 0) {
+            seen.dark = hides(hit);
+            break;
+        }
+        if ((hit.flags & HC_SIDE) != 0 && hit.place.z < -BASE) {
+            hit.t = HC_MISS;
+        }
+        seen.hit       = hit;
+        seen.fetches   = hc_fetch_count;
+        seen.crossings = hc_crossing_count > 0 ? hc_crossing_count : hit.steps;
+        if (!(hit.t < HC_MISS)) {
+            break;
+        }
+        seen.normal = normal_at(hit, along);
+        if (!asks_sun(seen.normal)) {
+            break;
+        }
+        from = sun_ray(hit.place, reach);
+        way  = -u_sun * u_scale;
+    }
+#endif
+    return seen;
+}
 
 void main(void)
 {
@@ -534,22 +584,20 @@ void main(void)
     vec3   shift     = u_orthographic ? moved : vec3(0.0);
     vec3   direction = u_orthographic ? u_forward : normalize(u_forward + moved);
     vec3   along     = direction * u_scale;
-    hc_hit hit       = look(u_place + shift * u_scale, along);
-    float  fetches   = float(hc_fetch_count);
-    int    crossings = hc_crossing_count > 0 ? hc_crossing_count : hit.steps;
+    sight  seen      = look(u_place + shift * u_scale, along);
+    hc_hit hit       = seen.hit;
     bool   entered   = hit.t < HC_MISS || hit.steps > 0;
-    bool   seen      = hit.t < HC_MISS;
-    vec3   normal    = seen ? normal_at(hit, along) : vec3(0.0);
     vec3   colour    = sky_colour(direction);
-    if (seen) {
-        vec3 from_eye = shift + hit.t * direction;
-        colour        = see_ground(hit, normal, direction, from_eye, u_haze_top - shift.z);
+    if (hit.t < HC_MISS) {
+        float lit = lit_at(seen.normal, shift + hit.t * direction, seen.dark);
+        colour    = see_ground(hit, seen.normal, lit, direction, u_haze_top - shift.z);
     }
     o_light      = vec4(colour, hit.t);
-    o_normal     = vec4(normal, hit.place.z);
-    o_counts     = vec4(float(hit.steps), fetches, entered ? 1.0 + float(crossings) : 0.0,
+    o_normal     = vec4(seen.normal, hit.place.z);
+    o_counts     = vec4(float(hit.steps), float(seen.fetches),
+                        entered ? 1.0 + float(seen.crossings) : 0.0,
                         float((hit.flags & HC_UNCONVERGED) != 0));
-    gl_FragDepth = seen ? depth_of(hit.t * dot(direction, u_forward)) : 0.0;
+    gl_FragDepth = hit.t < HC_MISS ? depth_of(hit.t * dot(direction, u_forward)) : 0.0;
 }
 
 #endif

@@ -111,12 +111,12 @@ typedef struct hc_terrain_scene {
     hc_polygons polygons;
 
     /* detail_count of them [0 .. HC_DETAILS_MAX], read by hc_terrain_create only; what they point
-     * to is borrowed until the terrain is destroyed. On the bilinear surface, with closed sides. */
+     * to is borrowed until the terrain is destroyed. Not of polygons, which are too coarse for them. */
     const hc_detail *details;
     int              detail_count;
     /* mask_width * mask_height * 4: how much of each detail there is at each sample, of 255; as many
-     * texels as the field has samples, bilinear between them; borrowed. NULL: the same share
-     * of each everywhere, all of them together 1. */
+     * texels as the field has samples, bilinear between them, or the same on all of a flat top;
+     * borrowed. NULL: the same share of each everywhere, all of them together 1. */
     const uint8_t   *mask;
     int              mask_width, mask_height;
     hc_detail_method detail_method;

@@ -104,6 +104,26 @@ static void by_steps(void **state)
     compare(&scene, HC_VIEW_MISSED);
 }
 
+/* Flat tops by all that know them, and no walls around the field; both at once. */
+static void on_steps_and_through_open_sides(void **state)
+{
+    static const struct kind {
+        hc_trace_method  method;
+        bool             open_sides;
+        hc_detail_method way;
+    } kinds[] = { { HC_TRACE_QDM, true, HC_DETAIL_SAFE },
+                  { HC_TRACE_MAXMIP, true, HC_DETAIL_SAFE },
+                  { HC_TRACE_QDM, false, HC_DETAIL_STEPS } };
+    (void)state;
+    for (int i = 0; i < 3; i++) {
+        hc_terrain_scene scene   = scene_of(kinds[i].method, kinds[i].way);
+        scene.trace.open_sides   = kinds[i].open_sides;
+        scene.exaggeration       = 3.0;
+        scene.field.registration = i == 0 ? HC_TEXEL : HC_GRID;
+        compare(&scene, i == 2 ? HC_VIEW_NORMAL : HC_VIEW_SHADED);
+    }
+}
+
 /* Among objects, under a map of shadows, on the posts of a grid. */
 static void among_other_things(void **state)
 {
@@ -128,6 +148,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(safely),
         cmocka_unit_test(by_steps),
+        cmocka_unit_test(on_steps_and_through_open_sides),
         cmocka_unit_test(among_other_things),
     };
     return cmocka_run_group_tests(tests, prepare, NULL);

@@ -139,7 +139,7 @@ static void steps_and_open_sides(void **state)
         scene.trace.open_sides   = i >= 3;
         scene.exaggeration       = 3.0;
         scene.field.registration = i % 2 == 0 ? HC_TEXEL : HC_GRID;
-        compare(&scene, i == 7 ? HC_VIEW_NORMAL : HC_VIEW_SHADED);
+        compare(&scene, i % 3 == 1 ? HC_VIEW_NORMAL : HC_VIEW_SHADED);
         compare(&scene, HC_VIEW_MISSED);
         if (i < 6 && methods[i % 3] != HC_TRACE_QDM) {
             assert_true(gl.picture.figures.lost + gl.picture.figures.made_up == 0);

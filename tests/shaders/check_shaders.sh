@@ -57,17 +57,15 @@ for language in core es; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag
-        if [ $method != QDM ]; then
-            between=detail.glsl
-            for how in SAFE STEPS; do
-                for part in RAYS BODIES; do
-                    fragment $language-detail-$how-$part-$method.frag $language \
-                        "HC_METHOD HC_$method" DETAILS HC_DETAIL_$how $part
-                    check $language-detail-$how-$part-$method.frag frag
-                done
+        between=detail.glsl
+        for how in SAFE STEPS; do
+            for part in RAYS BODIES; do
+                fragment $language-detail-$how-$part-$method.frag $language \
+                    "HC_METHOD HC_$method" DETAILS HC_DETAIL_$how $part
+                check $language-detail-$how-$part-$method.frag frag
             done
-            between=
-        fi
+        done
+        between=
         fragment $language-polygons-$method.frag $language "HC_METHOD HC_$method" POLYGONS
         check $language-polygons-$method.frag frag
         for scene in terrain relief; do
@@ -85,6 +83,11 @@ for language in core es; do
     for method in SAFE MAXMIP QDM; do
         fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS HC_OPEN_SIDES
         check $language-steps-$method.frag frag
+        between=detail.glsl
+        fragment $language-detail-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS \
+            HC_OPEN_SIDES DETAILS
+        check $language-detail-steps-$method.frag frag
+        between=
     done
     scene=relief
     fragment $language-diamond.frag $language "HC_METHOD HC_SAFE" "HC_CONE_CHANNELS 1"

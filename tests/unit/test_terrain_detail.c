@@ -54,23 +54,40 @@ static hc_terrain_scene detailed(hc_detail details[HC_DETAILS_MAX], const float 
 
 /* ---- the surface, by its definition ---------------------------------------------------------- */
 
-/* z of what details leave of the ground at a place, all of them in full. */
-static double surface_at(const hc_terrain_scene *scene, const hc_detail *details, double x,
-                         double y)
+static bool has_tops(const hc_terrain_scene *scene)
 {
-    const double side = 10.0 * (SIDE - 1);
-    double       z    = 100.0 + 200.0 * hc_field_surface(&scene->field, x / side, -y / side);
+    return scene->trace.surface == HC_SURFACE_STEPS || scene->trace.method == HC_TRACE_QDM;
+}
+
+/* Of samples: between them, or of the nearest one. */
+static double plane_at(const float *samples, double x, double y, bool nearest)
+{
+    const double   side  = 10.0 * (SIDE - 1);
+    const hc_field plane = {
+        .heights = samples, .width = SIDE, .height = SIDE, .registration = HC_GRID
+    };
+    const double u = nearest ? 10.0 * floor(x / 10.0 + 0.5) : x;
+    const double v = nearest ? 10.0 * floor(-y / 10.0 + 0.5) : -y;
+    return hc_field_surface(&plane, u / side, v / side);
+}
+
+static double ground_at(const hc_terrain_scene *scene, double x, double y)
+{
+    return 100.0 + 200.0 * plane_at(scene->field.heights, x, y, has_tops(scene));
+}
+
+/* How far details lie under the ground at a place, all of them in full. */
+static double cut_at(const hc_terrain_scene *scene, const hc_detail *details, double x, double y)
+{
+    double sum = 0.0;
     for (int i = 0; i < HC_DETAILS_MAX; i++) {
-        const hc_field plane = {
-            .heights = planes[i], .width = SIDE, .height = SIDE, .registration = HC_GRID
-        };
         const hc_field map = {
             .heights = maps[i], .width = MAP, .height = MAP, .wrap = HC_WRAP_UV
         };
         const double low = 1.0 - hc_field_surface(&map, x / details[i].tile, -y / details[i].tile);
-        z -= hc_field_surface(&plane, x / side, -y / side) * details[i].depth * low;
+        sum += plane_at(planes[i], x, y, has_tops(scene)) * details[i].depth * low;
     }
-    return z;
+    return sum;
 }
 
 static double uniform(uint32_t *seed)
@@ -101,28 +118,43 @@ static hc_ray random_ray(uint32_t *seed)
     return ray;
 }
 
-static double gap_at(const hc_terrain_scene *scene, const hc_detail *details, const hc_ray *ray,
-                     double t)
+#define OUTSIDE INFINITY
+
+/* Over the ground, or OUTSIDE. */
+static double place_at(double at[3], const hc_terrain_scene *scene, const hc_ray *ray, double t)
 {
-    double at[3];
     for (int k = 0; k < 3; k++) {
         at[k] = (double)ray->origin[k] + t * (double)ray->direction[k];
     }
     const bool over = at[0] >= 0.0 && at[0] <= 320.0 && at[1] <= 0.0 && at[1] >= -320.0;
-    return over ? at[2] - surface_at(scene, details, at[0], at[1]) : INFINITY;
+    return over ? at[2] - ground_at(scene, at[0], at[1]) : OUTSIDE;
 }
 
-/* The first of many steps under the surface by more than `tolerance`; INFINITY: none. */
+static double gap_at(const hc_terrain_scene *scene, const hc_detail *details, const hc_ray *ray,
+                     double t)
+{
+    double       at[3];
+    const double above = place_at(at, scene, ray, t);
+    return above < OUTSIDE ? above + cut_at(scene, details, at[0], at[1]) : OUTSIDE;
+}
+
+/* The first of many steps under the surface by more than `tolerance`; INFINITY: none. Under open
+ * sides rays are to have been above it before. */
 static double first_below(const hc_terrain_scene *scene, const hc_detail *details,
                           const hc_ray *ray, double until, double tolerance)
 {
     enum { STEPS = 6000 };
-    const double end = fmax(fmin(until, 700.0), 0.0);
+    const double end   = fmax(fmin(until, 700.0), 0.0);
+    bool         ready = !scene->trace.open_sides;
     for (int i = 0; i < STEPS && end > 0.0; i++) {
         const double t = end * i / STEPS;
-        if (gap_at(scene, details, ray, t) < -tolerance) {
+        double       at[3];
+        double       gap = place_at(at, scene, ray, t);
+        gap += gap <= tolerance ? cut_at(scene, details, at[0], at[1]) : 0.0; /* else clear */
+        if (gap < -tolerance && ready) {
             return t;
         }
+        ready = ready || (gap > tolerance && gap < OUTSIDE);
     }
     return INFINITY;
 }
@@ -179,16 +211,32 @@ enum { RAYS = 500 };
 
 /* Heights are float: so is t, and on a slope of 16 it moves z by 16 times its rounding. */
 static const double TOLERANCE = 4e-3;
+static const double NEAR      = 1e-3; /* before and behind a face */
 
 typedef struct tally {
     int hits, missed, made_up, unconverged;
+    int below; /* come in through a side, under the ground */
 } tally;
+
+static bool comes_in_below(const hc_terrain_scene *scene, const hc_ray *ray)
+{
+    double t = 0.0, at[3];
+    for (int k = 0; k < 2; k++) {
+        const double side = (ray->direction[k] > 0.0F) == (k == 0) ? 0.0 : k == 0 ? 320.0 : -320.0;
+        t                 = fmax(t, (side - (double)ray->origin[k]) / (double)ray->direction[k]);
+    }
+    for (int k = 0; k < 3; k++) {
+        at[k] = (double)ray->origin[k] + t * (double)ray->direction[k];
+    }
+    const bool passes = at[0] >= -0.01 && at[0] <= 320.01 && at[1] <= 0.01 && at[1] >= -320.01;
+    return t > 0.0 && passes && at[2] < ground_at(scene, at[0], at[1]);
+}
 
 static tally cast(const hc_terrain_scene *scene, const hc_detail *details)
 {
     hc_terrain *terrain = make(scene, NULL);
     uint32_t    seed    = 77;
-    tally       sum     = { 0, 0, 0, 0 };
+    tally       sum     = { 0 };
     for (int i = 0; i < RAYS; i++) {
         const hc_ray ray = random_ray(&seed);
         hc_hit       hit;
@@ -197,11 +245,13 @@ static tally cast(const hc_terrain_scene *scene, const hc_detail *details)
         const bool   met   = hit.t < INFINITY;
         const bool   wall  = (hit.flags & (HC_HIT_SIDE | HC_HIT_INSIDE)) != 0;
         const double gap   = met ? gap_at(scene, details, &ray, (double)hit.t) : 0.0;
-        const double until = (double)hit.t - 1e-3;
+        const double until = (double)hit.t - NEAR;
+        const bool   faced = wall && gap_at(scene, details, &ray, (double)hit.t + NEAR) > TOLERANCE;
         const bool   lost  = first_below(scene, details, &ray, until, TOLERANCE) < INFINITY;
         sum.hits += met ? 1 : 0;
         sum.missed += lost ? 1 : 0;
-        sum.made_up += met && !wall && !lost && fabs(gap) > TOLERANCE ? 1 : 0;
+        sum.made_up += met && !lost && (wall ? faced : fabs(gap) > TOLERANCE) ? 1 : 0;
+        sum.below += comes_in_below(scene, &ray) ? 1 : 0;
         sum.unconverged += (hit.flags & HC_HIT_UNCONVERGED) != 0 ? 1 : 0;
     }
     hc_terrain_destroy(terrain);
@@ -210,14 +260,28 @@ static tally cast(const hc_terrain_scene *scene, const hc_detail *details)
 
 static void safe_loses_nothing(void **state)
 {
-    const hc_trace_method methods[] = { HC_TRACE_FAST, HC_TRACE_MAXMIP };
+    static const struct kind {
+        const float    *heights;
+        hc_trace_method method;
+        hc_surface      surface;
+        bool            open_sides;
+    } kinds[] = { { hills, HC_TRACE_FAST, HC_SURFACE_BILINEAR, false },
+                  { cliff, HC_TRACE_MAXMIP, HC_SURFACE_BILINEAR, false },
+                  { hills, HC_TRACE_FAST, HC_SURFACE_STEPS, false },
+                  { hills, HC_TRACE_QDM, HC_SURFACE_BILINEAR, false },
+                  { hills, HC_TRACE_FAST, HC_SURFACE_BILINEAR, true },
+                  { hills, HC_TRACE_MAXMIP, HC_SURFACE_STEPS, true },
+                  { cliff, HC_TRACE_MAXMIP, HC_SURFACE_BILINEAR, true } };
     (void)state;
-    for (int i = 0; i < 4; i++) {
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
         hc_detail        details[HC_DETAILS_MAX];
-        hc_terrain_scene scene = detailed(details, i < 2 ? hills : cliff);
-        scene.trace.method     = methods[i % 2];
+        hc_terrain_scene scene = detailed(details, kinds[i].heights);
+        scene.trace.method     = kinds[i].method;
+        scene.trace.surface    = kinds[i].surface;
+        scene.trace.open_sides = kinds[i].open_sides;
         const tally sum        = cast(&scene, details);
-        assert_true(sum.hits > RAYS / 2);
+        assert_true(sum.hits > RAYS / 4);
+        assert_true(sum.below > RAYS / 20);
         assert_int_equal(sum.missed, 0);
         assert_int_equal(sum.made_up, 0);
         assert_int_equal(sum.unconverged, 0);
@@ -412,12 +476,6 @@ static void bad_details(void **state)
     scene                = detailed(details, hills);
     scene.detail_fade[0] = 2e9;
     refuse_as(&scene, HC_ERROR_ARGUMENT, "scene.detail_fade is 2e+09, 1e+09");
-    scene               = detailed(details, hills);
-    scene.trace.surface = HC_SURFACE_STEPS;
-    refuse_as(&scene, HC_ERROR_UNSUPPORTED, "steps have none");
-    scene                  = detailed(details, hills);
-    scene.trace.open_sides = true;
-    refuse_as(&scene, HC_ERROR_UNSUPPORTED, "open sides have none");
     scene               = detailed(details, hills);
     scene.detail_method = (hc_detail_method)2;
     refuse_as(&scene, HC_ERROR_ARGUMENT, "scene.detail_method is 2");

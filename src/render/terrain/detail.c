@@ -61,15 +61,14 @@ static hc_result check_mask(const hc_terrain_scene *scene, hc_log *log)
                          scene->field.height);
 }
 
-static hc_result check_surface(const hc_terrain_scene *scene, hc_log *log)
+static hc_result check_polygons(const hc_terrain_scene *scene, hc_log *log)
 {
-    const char *why = scene->polygons != HC_POLYGONS_NONE        ? "triangles have none"
-                      : scene->trace.surface == HC_SURFACE_STEPS ? "steps have none"
-                      : scene->trace.method == HC_TRACE_QDM      ? "qdm's steps have none"
-                      : scene->trace.open_sides                  ? "open sides have none"
-                                                                 : NULL;
-    return why == NULL ? HC_OK
-                       : hc_fail(log, HC_ERROR_UNSUPPORTED, "the scene has details; %s", why);
+    return scene->polygons == HC_POLYGONS_NONE
+               ? HC_OK
+               : hc_fail(log, HC_ERROR_UNSUPPORTED,
+                         "the scene has details; scene.polygons is %s, and triangles between "
+                         "samples are too coarse to show any",
+                         hc_polygons_name(scene->polygons));
 }
 
 static hc_result check_details(const hc_terrain_scene *scene, hc_log *log)
@@ -90,7 +89,7 @@ static hc_result check_details(const hc_terrain_scene *scene, hc_log *log)
         return HC_OK;
     }
     CHECK(check_mask(scene, log));
-    return check_surface(scene, log);
+    return check_polygons(scene, log);
 }
 
 /* ---- defaults -------------------------------------------------------------------------------- */
@@ -236,31 +235,31 @@ static size_t folded(int index, int size)
     return (size_t)(rest < 0 ? rest + size : rest);
 }
 
-/* The field goes on outwards with its border. */
-static void corners_of(size_t corners[4], const hc_field *field, const int cell[2])
+/* The field goes on outwards with its border. A top has the same height at all corners. */
+static void corners_of(size_t corners[4], const hc_field *field, const int cell[2], bool tops)
 {
     for (int i = 0; i < 4; i++) {
-        corners[i] = inside(cell[1] + i / 2, field->height) * (size_t)field->width
-                     + inside(cell[0] + i % 2, field->width);
+        corners[i] = inside(cell[1] + (tops ? 0 : i / 2), field->height) * (size_t)field->width
+                     + inside(cell[0] + (tops ? 0 : i % 2), field->width);
     }
 }
 
-hc_bilinear hc_ground_patch(const hc_terrain *terrain, const int cell[2])
+hc_bilinear hc_ground_patch(const hc_terrain *terrain, const int cell[2], bool tops)
 {
     const float *h = terrain->scene.field.heights;
     size_t       at[4];
-    corners_of(at, &terrain->scene.field, cell);
+    corners_of(at, &terrain->scene.field, cell, tops);
     return through((double)h[at[0]], (double)h[at[1]], (double)h[at[2]], (double)h[at[3]]);
 }
 
-hc_bilinear hc_mask_patch(const hc_terrain *terrain, int detail, const int cell[2])
+hc_bilinear hc_mask_patch(const hc_terrain *terrain, int detail, const int cell[2], bool tops)
 {
     const uint8_t *mask = terrain->scene.mask;
     size_t         at[4];
     if (mask == NULL) {
         return (hc_bilinear){ .base = 1.0 / terrain->details.count };
     }
-    corners_of(at, &terrain->scene.field, cell);
+    corners_of(at, &terrain->scene.field, cell, tops);
     for (int i = 0; i < 4; i++) {
         at[i] = at[i] * CHANNELS + (size_t)detail;
     }
@@ -303,9 +302,15 @@ static spot spot_of(double x, double y)
 static spot spot_on_ground(const hc_terrain *terrain, const hc_hit *hit)
 {
     const hc_field *field = &terrain->scene.field;
-    const double    first = field->registration == HC_GRID ? 0.0 : 0.5;
-    return spot_of((double)hit->u / hc_field_step_u(field) - first,
-                   (double)hit->v / hc_field_step_v(field) - first);
+    const double    first =
+        (field->registration == HC_GRID ? 0.0 : 0.5) - (hc_terrain_has_tops(terrain) ? 0.5 : 0.0);
+    spot s = spot_of((double)hit->u / hc_field_step_u(field) - first,
+                     (double)hit->v / hc_field_step_v(field) - first);
+    if ((hit->flags & HC_HIT_SIDE) != 0) { /* the face of this top, whatever rounding says */
+        s.cell[0] = hit->cell_x;
+        s.cell[1] = hit->cell_y;
+    }
+    return s;
 }
 
 static spot spot_on_detail(const hc_terrain *terrain, int detail, const hc_hit *hit)
@@ -352,12 +357,13 @@ static void slopes_of(double slopes[2], const hc_terrain *terrain, int detail, c
 
 void hc_details_bend(double normal[3], const hc_terrain *terrain, const hc_hit *hit, double left)
 {
+    const bool   tops      = hc_terrain_has_tops(terrain);
     const spot   ground    = spot_on_ground(terrain, hit);
     const double up        = fmax(normal[2], 1e-6);
     double       slopes[2] = { -normal[0] / up, -normal[1] / up };
     for (int i = 0; i < terrain->details.count; i++) {
         const spot        texel = spot_on_detail(terrain, i, hit);
-        const hc_bilinear mask  = hc_mask_patch(terrain, i, ground.cell);
+        const hc_bilinear mask  = hc_mask_patch(terrain, i, ground.cell, tops);
         const hc_bilinear patch = hc_detail_patch(terrain, i, texel.cell);
         const double      share = hc_bilinear_at(&mask, ground.at[0], ground.at[1]);
         const double      low   = 1.0 - hc_bilinear_at(&patch, texel.at[0], texel.at[1]);
@@ -397,13 +403,14 @@ static void filtered(double rgb[3], const hc_detail *map, const spot *s, bool ne
 /* Shares that come to more than 1 are as good as 1. */
 void hc_details_colour(double rgb[3], const hc_terrain *terrain, const hc_hit *hit, double left)
 {
+    const bool tops   = hc_terrain_has_tops(terrain);
     const spot ground = spot_on_ground(terrain, hit);
     double     sum[3] = { 0.0, 0.0, 0.0 };
     double     shares = 0.0;
     for (int i = 0; i < terrain->details.count; i++) {
         const hc_detail  *map   = &terrain->details.maps[i];
         const spot        texel = spot_on_detail(terrain, i, hit);
-        const hc_bilinear mask  = hc_mask_patch(terrain, i, ground.cell);
+        const hc_bilinear mask  = hc_mask_patch(terrain, i, ground.cell, tops);
         const double      share = hc_bilinear_at(&mask, ground.at[0], ground.at[1]);
         double            own[3];
         if (map->colour == NULL) {

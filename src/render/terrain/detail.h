@@ -31,9 +31,10 @@ typedef struct hc_bilinear {
 } hc_bilinear;
 
 /* Of the ground; of the mask's channel, in shares of 1; of a detail's heights: between texel (x, y)
- * and its neighbours. */
-hc_bilinear hc_ground_patch(const struct hc_terrain *terrain, const int cell[2]);
-hc_bilinear hc_mask_patch(const struct hc_terrain *terrain, int detail, const int cell[2]);
+ * and its neighbours. tops: the ground is flat tops, and the mask a share for each. */
+hc_bilinear hc_ground_patch(const struct hc_terrain *terrain, const int cell[2], bool tops);
+hc_bilinear hc_mask_patch(const struct hc_terrain *terrain, int detail, const int cell[2],
+                          bool tops);
 hc_bilinear hc_detail_patch(const struct hc_terrain *terrain, int detail, const int cell[2]);
 double      hc_bilinear_at(const hc_bilinear *patch, double x, double y);
 

@@ -11,6 +11,10 @@ enum { BISECTIONS = 8 };
 
 /* Steps look no farther than if the ray fell by so much in one across. */
 static const double LEAST_FALL = 1.0 / 16.0;
+/* In cells of the ground: what rounding of places may do in a shader. */
+static const double INTO_FACE = 0x1p-10;
+/* What comes up is looked for so far behind the root, of the way to the next wall. */
+static const double CAME_UP = 0x1p-22;
 /* So far above the ground, in heights, a ray has come out of it: what rounding of t may do. */
 static const double EMERGED = 0x1p-20;
 
@@ -35,9 +39,12 @@ typedef struct walk {
     hc_bilinear       shares[HC_DETAILS_MAX]; /* of the mask, in this cell of the ground */
     int               level;                  /* of blocks of texels; 0: texels           */
     block             blocks[HC_DETAILS_MAX]; /* that the ray is in, above level 0        */
-    double            leave;                  /* t where the ray ends, or the field */
+    double            begin, leave;           /* t where the ray begins and ends, or the field */
     uint32_t          steps;
     bool              emerged;
+    bool              rising;      /* the ray is under the detail, and has not hit it */
+    bool              tops, faced; /* faced: the ray has come to another top just now */
+    double            zero;        /* place of the first sample among the ground's cells */
 } walk;
 
 /* ---- grids ----------------------------------------------------------------------------------- */
@@ -128,7 +135,7 @@ static void cross_block(grid *g, const block *b, double t)
 static void choose_details(walk *w, double t)
 {
     for (int i = 0; i < w->terrain->details.count; i++) {
-        const hc_bilinear mask = hc_mask_patch(w->terrain, i, w->grids[GROUND].cell);
+        const hc_bilinear mask = hc_mask_patch(w->terrain, i, w->grids[GROUND].cell, w->tops);
         const bool        none =
             mask.base == 0.0 && mask.slope[0] == 0.0 && mask.slope[1] == 0.0 && mask.twist == 0.0;
         if (!none && !w->grids[i].used) {
@@ -153,6 +160,12 @@ static void set_grid(grid *g, const hc_terrain *terrain, const hc_ray *ray, cons
     }
 }
 
+static double field_begin(const grid *g, int axis, double size, double first)
+{
+    const double begin = g->along[axis] > 0.0 ? -first : size - first;
+    return g->along[axis] == 0.0 ? -INFINITY : (begin - g->place[axis]) / g->along[axis];
+}
+
 static double field_end(const grid *g, int axis, double size, double first)
 {
     const double end = g->along[axis] > 0.0 ? size - first : -first;
@@ -172,13 +185,13 @@ static double layer_end(const walk *w)
                            : INFINITY;
 }
 
-static walk start(const hc_terrain *terrain, const hc_ray *ray)
+static walk start(const hc_terrain *terrain, const hc_ray *ray, bool tops)
 {
     const hc_field *field   = &terrain->scene.field;
-    const double    zero    = field->registration == HC_GRID ? 0.0 : 0.5;
+    const double    zero    = (field->registration == HC_GRID ? 0.0 : 0.5) - (tops ? 0.5 : 0.0);
     const double    half[2] = { 0.5, 0.5 }, first[2] = { zero, zero };
     const double    rate[2] = { 1.0 / terrain->scene.spacing[0], 1.0 / terrain->scene.spacing[1] };
-    walk            w       = { .terrain = terrain };
+    walk            w       = { .terrain = terrain, .tops = tops, .zero = zero };
     w.z    = ((double)ray->origin[2] - terrain->placement.offset[2]) / terrain->placement.scale_z;
     w.rise = (double)ray->direction[2] / terrain->placement.scale_z;
     set_grid(&w.grids[GROUND], terrain, ray, rate, first);
@@ -187,11 +200,13 @@ static walk start(const hc_terrain *terrain, const hc_ray *ray)
         const double own[2] = { terrain->details.rate[i], terrain->details.rate[i] };
         set_grid(&w.grids[i], terrain, ray, own, half);
     }
-    const double across = (terrain->high[0] - terrain->low[0]) * rate[0];
-    const double down   = (terrain->high[1] - terrain->low[1]) * rate[1];
-    w.leave             = fmin(fmin((double)ray->tmax, layer_end(&w)),
-                               fmin(field_end(&w.grids[GROUND], 0, across, zero),
-                                    field_end(&w.grids[GROUND], 1, down, zero)));
+    w.leave = fmin((double)ray->tmax, layer_end(&w));
+    w.begin = (double)ray->tmin;
+    for (int k = 0; k < 2; k++) {
+        const double size = (terrain->high[k] - terrain->low[k]) * rate[k];
+        w.begin           = fmax(w.begin, field_begin(&w.grids[GROUND], k, size, zero));
+        w.leave           = fmin(w.leave, field_end(&w.grids[GROUND], k, size, zero));
+    }
     return w;
 }
 
@@ -211,7 +226,7 @@ static void along_ray(double out[3], const hc_bilinear *patch, const grid *g, do
 /* Height of the ray over the ground, from t. */
 static void ground_gap(double gap[3], const walk *w, double t)
 {
-    const hc_bilinear patch = hc_ground_patch(w->terrain, w->grids[GROUND].cell);
+    const hc_bilinear patch = hc_ground_patch(w->terrain, w->grids[GROUND].cell, w->tops);
     double            ground[3];
     along_ray(ground, &patch, &w->grids[GROUND], t);
     gap[0] = w->z + t * w->rise - ground[0];
@@ -240,15 +255,17 @@ static void detail_gap(double gap[HC_QUARTIC], const walk *w, double t)
     }
 }
 
-/* Over a surface that is nowhere under that one in the blocks: is it above 0 from t to `end`? */
-static bool clears_blocks(const walk *w, double t, double end)
+/* Over the ground less a share of each detail's whole depth: Bernstein coefficients from t to `end`.
+ * blocks: it is nowhere under the surface in them; else nowhere over it. */
+static void bound_gap(double bounds[3], const walk *w, double t, double end, bool blocks)
 {
-    const double reach = end - t;
+    const double reach = fmax(end - t, 0.0);
     double       gap[3];
     ground_gap(gap, w, t);
     for (int i = 0; i < w->terrain->details.count; i++) {
         if (w->grids[i].used) {
-            const double deep = w->left * w->terrain->details.cut[i] * (1.0 - w->blocks[i].top);
+            const double top  = blocks ? w->blocks[i].top : 0.0;
+            const double deep = w->left * w->terrain->details.cut[i] * (1.0 - top);
             double       share[3];
             along_ray(share, &w->shares[i], &w->grids[GROUND], t);
             for (int k = 0; k < 3; k++) {
@@ -256,10 +273,16 @@ static bool clears_blocks(const walk *w, double t, double end)
             }
         }
     }
-    return gap[0] > 0.0
-           && (!(reach > 0.0)
-               || (gap[0] + 0.5 * reach * gap[1] > 0.0
-                   && gap[0] + reach * (gap[1] + reach * gap[2]) > 0.0));
+    bounds[0] = gap[0];
+    bounds[1] = gap[0] + 0.5 * reach * gap[1];
+    bounds[2] = gap[0] + reach * (gap[1] + reach * gap[2]);
+}
+
+static bool clears_blocks(const walk *w, double t, double end)
+{
+    double bounds[3];
+    bound_gap(bounds, w, t, end, true);
+    return fmin(bounds[0], fmin(bounds[1], bounds[2])) > 0.0;
 }
 
 /* ---- safe ------------------------------------------------------------------------------------ */
@@ -270,7 +293,9 @@ static void go_in(walk *w, double t)
     for (int i = 0; i < GROUND; i++) {
         w->grids[i].used = false;
     }
-    w->level = 0;
+    w->level  = 0;
+    w->faced  = false;
+    w->rising = false;
     choose_details(w, t);
 }
 
@@ -284,7 +309,8 @@ static void cross_all(walk *w, double t)
             (void)cross(&w->grids[i], t);
         }
     }
-    if (cross(&w->grids[GROUND], t)) {
+    w->faced = cross(&w->grids[GROUND], t);
+    if (w->faced) {
         choose_details(w, t);
     }
 }
@@ -305,52 +331,93 @@ static double next_end(walk *w)
     return end;
 }
 
-/* From *t to the first contact. INFINITY: to where it has come out of the ground (w->emerged), or to
- * the end. Blocks are walked as nodes of the pyramid are (maxmip): up a level after each that the ray
- * passes over, down a level where it may not. */
+/* Down in the cell of the ground, where there is no detail? Then *end is where it ends. */
+static bool stays_deep(double *end, walk *w, double t)
+{
+    double       bounds[3];
+    const double wall = fmax(fmin(w->leave, next_wall(&w->grids[GROUND])), t);
+    bound_gap(bounds, w, t, wall, false);
+    if (fmax(bounds[0], fmax(bounds[1], bounds[2])) >= 0.0) {
+        return false;
+    }
+    for (int i = 0; i < GROUND; i++) {
+        w->grids[i].used = false; /* it is left behind, and entered anew */
+    }
+    *end = wall;
+    return true;
+}
+
+/* Least r in 0 .. reach where a gap comes to 0: from above, or, rising, from below. */
+static double first_root(double gap[HC_QUARTIC], double reach, bool rising)
+{
+    for (int k = 0; k < HC_QUARTIC; k++) {
+        gap[k] = rising ? -gap[k] : gap[k];
+    }
+    return hc_quartic_first(gap, reach);
+}
+
+/* Over the walls at the end. True: the ray has come out of the ground. */
+static bool goes_over(walk *w, double *t, double end)
+{
+    double above[3];
+    *t = end;
+    cross_all(w, end);
+    w->level += !w->rising && w->level < w->terrain->details.level_max ? 1 : 0;
+    ground_gap(above, w, end);
+    w->emerged = !w->rising && above[0] > EMERGED;
+    return w->emerged;
+}
+
+/* From *t to the first contact; rising: to the first after the ray has come up out of the detail.
+ * INFINITY: to where it has come out of the ground (w->emerged), or to the end. Blocks are walked as
+ * nodes of the pyramid are (maxmip): up a level after each that the ray passes over, down a level
+ * where it may not. Where it rises a root may be one that it only touches: it goes on behind it,
+ * farther from time to time. */
 static double walk_on(walk *w, double *t)
 {
+    double slip = CAME_UP;
     for (w->emerged = false;;) {
-        double       gap[HC_QUARTIC], above[3];
-        const double end = fmax(next_end(w), *t);
+        double     gap[HC_QUARTIC];
+        double     end  = INFINITY;
+        const bool deep = w->rising && stays_deep(&end, w, *t);
+        end             = deep ? end : fmax(next_end(w), *t);
         w->steps++;
         if (w->level > 0 && !clears_blocks(w, *t, end)) {
             w->level--;
             continue;
         }
-        if (w->level == 0) {
+        if (w->level == 0 && !deep) {
             detail_gap(gap, w, *t);
-            const double met = hc_quartic_first(gap, end - *t);
-            if (met < INFINITY) {
+            w->rising        = w->rising && gap[0] <= 0.0;
+            const double met = first_root(gap, end - *t, w->rising);
+            if (!w->rising && met < INFINITY) {
+                w->faced = w->faced && met == 0.0;
                 return *t + met;
             }
+            if (w->rising && met + slip * (end - *t) < end - *t) {
+                *t += met + slip * (end - *t);
+                slip *= 2.0;
+                continue;
+            }
         }
-        if (end >= w->leave) {
+        if (end >= w->leave || goes_over(w, t, end)) {
             return INFINITY;
         }
-        *t = end;
-        cross_all(w, end);
-        w->level += w->level < w->terrain->details.level_max ? 1 : 0;
-        ground_gap(above, w, end);
-        if (above[0] > EMERGED) {
-            w->emerged = true;
-            return INFINITY;
-        }
+        slip = CAME_UP;
     }
 }
 
 static void put_hit(hc_hit *hit, const walk *w, double t)
 {
     const hc_field *field = &w->terrain->scene.field;
-    const double    first = field->registration == HC_GRID ? 0.0 : 0.5;
     const grid     *g     = &w->grids[GROUND];
     hit->t                = (float)t;
-    hit->u                = (float)((place_at(g, 0, t) + first) * hc_field_step_u(field));
-    hit->v                = (float)((place_at(g, 1, t) + first) * hc_field_step_v(field));
+    hit->u                = (float)((place_at(g, 0, t) + w->zero) * hc_field_step_u(field));
+    hit->v                = (float)((place_at(g, 1, t) + w->zero) * hc_field_step_v(field));
     hit->height           = (float)(w->z + t * w->rise);
     hit->cell_x           = g->cell[0];
     hit->cell_y           = g->cell[1];
-    hit->flags            = 0;
+    hit->flags            = w->tops && w->faced ? HC_HIT_SIDE : 0;
 }
 
 static double left_at(const hc_terrain *terrain, double left, const hc_hit *hit)
@@ -358,11 +425,38 @@ static double left_at(const hc_terrain *terrain, double left, const hc_hit *hit)
     return left >= 0.0 ? left : hc_details_left(terrain, (double)hit->t);
 }
 
+/* ---- open sides ------------------------------------------------------------------------------ */
+
+/* Does the ray come in through a side, under the ground, where there is detail? Then *hit is its
+ * beginning. */
+static bool comes_in_below(hc_hit *hit, walk *w, const hc_ray *ray, double given)
+{
+    const hc_hit in = { .t = (float)w->begin };
+    double       gap[3];
+    if (!(w->begin > (double)ray->tmin && w->begin < w->leave)) {
+        return false;
+    }
+    enter(&w->grids[GROUND], w->begin);
+    ground_gap(gap, w, w->begin);
+    if (gap[0] > 0.0 || !(left_at(w->terrain, given, &in) > 0.0)) {
+        return false;
+    }
+    w->left = left_at(w->terrain, given, &in);
+    *hit    = (hc_hit){ .t = ray->tmin };
+    return true;
+}
+
 /* Where the detail is met at once the ground's own hit stands, a wall's, too. */
 static void dig_safe(hc_hit *hit, walk *w, const hc_tracer *tracer, const hc_ray *ray, double given)
 {
-    double t = (double)hit->t;
+    const bool open  = w->terrain->scene.trace.open_sides;
+    const bool below = open && comes_in_below(hit, w, ray, given);
+    double     t     = below ? w->begin : (double)hit->t;
+    if (!(t < INFINITY)) {
+        return;
+    }
     go_in(w, t);
+    w->rising = below;
     while (w->left > 0.0) {
         const double met  = walk_on(w, &t);
         hc_ray       rest = *ray;
@@ -423,9 +517,18 @@ static double way_through(const walk *w, const hc_ray *ray, double t)
     return deep > 0.0 ? 1.25 * (deep + fmax(gap[0], 0.0)) / fmax(-gap[1], least) : 0.0;
 }
 
+/* From a face of a top on it is that top's detail, on whichever side of the face t was rounded to. */
+static double way_into_face(const walk *w, const hc_hit *hit)
+{
+    const double *along = w->grids[GROUND].along;
+    return w->tops && (hit->flags & HC_HIT_SIDE) != 0
+               ? INTO_FACE / fmax(fabs(along[0]), fabs(along[1]))
+               : 0.0;
+}
+
 static void dig_by_steps(hc_hit *hit, walk *w, const hc_ray *ray)
 {
-    const double first = (double)hit->t;
+    const double first = (double)hit->t + way_into_face(w, hit);
     const int    steps = w->terrain->scene.detail_steps;
     if (!(w->left > 0.0) || gap_at(w, first) <= 0.0) {
         return;
@@ -450,6 +553,10 @@ static void dig_by_steps(hc_hit *hit, walk *w, const hc_ray *ray)
         const double middle                          = 0.5 * (above + below);
         *(gap_at(w, middle) > 0.0 ? &above : &below) = middle;
     }
+    go_in(w, above);
+    const int before[2] = { w->grids[GROUND].cell[0], w->grids[GROUND].cell[1] };
+    go_in(w, below);
+    w->faced = memcmp(before, w->grids[GROUND].cell, sizeof before) != 0;
     put_hit(hit, w, below);
 }
 
@@ -458,17 +565,20 @@ static void dig_by_steps(hc_hit *hit, walk *w, const hc_ray *ray)
 double hc_details_dig(hc_hit *hit, const hc_terrain *terrain, const hc_tracer *tracer,
                       const hc_ray *ray, hc_detail_method method, double left)
 {
-    const uint32_t steps = hit->steps;
-    if (!(hit->t < INFINITY)) {
+    const hc_trace_options *trace = &terrain->scene.trace;
+    const bool              steps = trace->surface == HC_SURFACE_STEPS;
+    const uint32_t          taken = hit->steps;
+    if (!(hit->t < INFINITY) && !(trace->open_sides && method == HC_DETAIL_SAFE)) {
         return 0.0;
     }
-    walk w = start(terrain, ray);
+    walk w =
+        start(terrain, ray, steps || (trace->method == HC_TRACE_QDM && tracer != terrain->exact));
     w.left = left_at(terrain, left, hit);
     if (method == HC_DETAIL_SAFE) {
         dig_safe(hit, &w, tracer, ray, left);
     } else {
         dig_by_steps(hit, &w, ray);
     }
-    hit->steps = steps + w.steps;
+    hit->steps = taken + w.steps;
     return w.left;
 }

@@ -11,11 +11,20 @@ static const double SKYLIGHT[3]   = { 0.26, 0.34, 0.50 };
 static const double BOUNCED[3]    = { 0.14, 0.13, 0.10 };
 static const double CUT_GROUND[3] = { 0.16, 0.12, 0.085 }; /* sides of the field, and inside it */
 
+bool hc_terrain_has_tops(const hc_terrain *terrain)
+{
+    return terrain->scene.trace.surface == HC_SURFACE_STEPS
+           || terrain->scene.trace.method == HC_TRACE_QDM;
+}
+
+static bool is_side(const hc_hit *hit)
+{
+    return (hit->flags & HC_HIT_SIDE) != 0;
+}
+
 static bool is_cut(const hc_terrain *terrain, const hc_hit *hit)
 {
-    const bool faces = terrain->scene.trace.surface == HC_SURFACE_STEPS
-                       || terrain->scene.trace.method == HC_TRACE_QDM;
-    return (hit->flags & HC_HIT_INSIDE) != 0 || ((hit->flags & HC_HIT_SIDE) != 0 && !faces);
+    return (hit->flags & HC_HIT_INSIDE) != 0 || (is_side(hit) && !hc_terrain_has_tops(terrain));
 }
 
 static bool is_body(const hc_glance *glance)
@@ -49,15 +58,14 @@ static void normal_at(double normal[3], const hc_terrain *terrain, const hc_glan
         memcpy(normal, glance->body.normal, 3 * sizeof *normal);
         return;
     }
-    const bool flat = terrain->scene.blocky || is_cut(terrain, &glance->hit)
-                      || terrain->scene.trace.surface == HC_SURFACE_STEPS
-                      || terrain->scene.trace.method == HC_TRACE_QDM;
+    const bool flat =
+        terrain->scene.blocky || is_cut(terrain, &glance->hit) || hc_terrain_has_tops(terrain);
     float out[3];
     hc_trace_normals(terrain->tracer, flat ? out : NULL, flat ? NULL : out, &glance->hit);
     for (int k = 0; k < 3; k++) {
         normal[k] = (double)out[k];
     }
-    if (terrain->details.count > 0 && !is_cut(terrain, &glance->hit)) {
+    if (terrain->details.count > 0 && !is_cut(terrain, &glance->hit) && !is_side(&glance->hit)) {
         hc_details_bend(normal, terrain, &glance->hit, glance->left);
     }
 }

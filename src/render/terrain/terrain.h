@@ -39,6 +39,9 @@ typedef struct hc_glance {
     double      left; /* how much of details there is */
 } hc_glance;
 
+/* Is the ground flat tops, instead of patches? */
+bool hc_terrain_has_tops(const hc_terrain *terrain);
+
 /* From the ground to the detail in it, if there is one. */
 void hc_terrain_dig(hc_glance *glance, const hc_terrain *terrain);
 
