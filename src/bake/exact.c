@@ -26,6 +26,13 @@ static float weight(const hc_exact_pass *pass, int dx, int dy)
 
 static void fill_sample_weights(hc_near_table *table, const hc_exact_pass *pass)
 {
+    const int right = pass->sign_u < 0 ? -1 : 1;
+    const int down  = pass->sign_v < 0 ? -1 : 1;
+    for (int dy = 0; dy <= HC_AROUND_REACH; dy++) {
+        for (int dx = 0; dx <= HC_AROUND_REACH; dx++) {
+            table->around[dy][dx] = weight(pass, right * dx, down * dy);
+        }
+    }
     for (int column = 0; column < HC_NEAR_SIDE; column++) {
         for (int group = 0; group < HC_NEAR_GROUPS; group++) {
             for (int lane = 0; lane < 4; lane++) {
@@ -76,12 +83,13 @@ hc_result hc_exact_plan_init(hc_exact_plan *plan, const hc_cone_job *job)
     plan->count         = hc_cone_searches(searches, job);
     const size_t n      = (size_t)plan->count;
     plan->tables        = aligned_alloc(64, n * sizeof *plan->tables);
-    plan->scratch       = calloc((size_t)job->threads * n, sizeof *plan->scratch);
+    plan->scratch       = aligned_alloc(64, (size_t)job->threads * n * sizeof *plan->scratch);
     plan->scratch_count = (size_t)job->threads * n;
     if (plan->tables == NULL || plan->scratch == NULL) {
         hc_exact_plan_finish(plan);
         return hc_fail(job->log, HC_ERROR_MEMORY, "no memory for the tables of %zu searches", n);
     }
+    hc_exact_plan_forget(plan);
     const hc_result built =
         hc_tree_build(&plan->tree, job->heights, job->width, job->height, job->threads, job->log);
     if (built != HC_OK) {

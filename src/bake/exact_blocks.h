@@ -3,24 +3,19 @@
 #ifndef HC_BAKE_EXACT_BLOCKS_H
 #define HC_BAKE_EXACT_BLOCKS_H
 
+#include "exact_hull.h"
 #include "exact_samples.h"
 
 /* What a part's samples say about places at a distance along a unit vector, both measured from the
  * part's middle: to be useful, a place must rise above
  *   height + slope * distance + lean_u * unit_u + lean_v * unit_v
- * of one of the samples. `climb` is what slope adds over the width of a block. */
+ * of one of the samples. */
 typedef struct lines {
-    float height[HC_LANES], slope[HC_LANES], lean_u[HC_LANES], lean_v[HC_LANES], climb[HC_LANES];
+    float height[HC_LANES], slope[HC_LANES], lean_u[HC_LANES], lean_v[HC_LANES];
+    float least_slope; /* of the samples that something can limit */
 } lines;
 
-/* No block is wider along any unit vector. */
-INLINE float block_width(kind k, float aspect)
-{
-    return k.diamond ? 3.0F * (1.0F + aspect)
-                     : 3.0F * (1.0F + 0x1p-20F) * sqrtf(1.0F + aspect * aspect);
-}
-
-INLINE void draw_lines(const tile *t, int part, float width, lines *l)
+INLINE void draw_lines(const tile *t, int part, lines *l)
 {
     const hc_v middle = hc_v_set(1.5F);
     const hc_v slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
@@ -30,7 +25,8 @@ INLINE void draw_lines(const tile *t, int part, float width, lines *l)
     hc_v_store(l->slope, slope);
     hc_v_store(l->lean_u, hc_v_mul(slope, hc_v_sub(middle, hc_v_load(COLUMN))));
     hc_v_store(l->lean_v, hc_v_mul(rows, hc_v_sub(middle, hc_v_load(ROW))));
-    hc_v_store(l->climb, hc_v_mul(slope, hc_v_set(width)));
+    const unsigned limited = hc_v_greater(hc_v_set(0.5F * ABOVE_ALL), t->lifted[part]);
+    l->least_slope         = hc_v_lowest(hc_v_pick(limited, slope, hc_v_set(0x1p60F)));
 }
 
 /* From a part's middle to the nearest points of sixteen blocks. */
@@ -38,24 +34,19 @@ typedef struct bearings {
     hc_v unit_u, unit_v, distance;
 } bearings;
 
-typedef struct span {
-    hc_v low, high;
-} span;
-
-/* The lowest of a part's lines at the blocks' nearest points, and a block's width further on. Not
- * inline: compilers would broadcast all lines into memory before the loop over the list, which is
- * short. */
-static __attribute__((noinline)) span lowest_lines(const lines *l, const bearings *b)
+/* The lowest of a part's lines at the blocks' nearest points. Not inline: compilers would broadcast
+ * all lines into memory before the loop over the list, which is short. */
+static __attribute__((noinline)) hc_v lowest_lines(const lines *l, const bearings *b)
 {
-    span s = { hc_v_set(ABOVE_ALL), hc_v_set(ABOVE_ALL) };
+    const hc_v above   = hc_v_set(ABOVE_ALL);
+    hc_v       lows[2] = { above, above }; /* short chains: min takes a while */
     for (int p = 0; p < HC_LANES; p++) {
-        hc_v v = hc_v_about_muladd(b->distance, hc_v_set(l->slope[p]), hc_v_set(l->height[p]));
-        v      = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
-        v      = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
-        s.low  = hc_v_min(v, s.low);
-        s.high = hc_v_min(hc_v_add(v, hc_v_set(l->climb[p])), s.high);
+        hc_v v      = hc_v_about_muladd(b->distance, hc_v_set(l->slope[p]), hc_v_set(l->height[p]));
+        v           = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
+        v           = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
+        lows[p % 2] = hc_v_min(v, lows[p % 2]);
     }
-    return s;
+    return hc_v_min(lows[0], lows[1]);
 }
 
 /* Gaps from a part's middle to sixteen listed blocks, in columns or rows; negative to the left and
@@ -93,6 +84,11 @@ INLINE bearings take_bearings(kind k, const tile *t, hc_v gap_u, hc_v gap_v)
     return b;
 }
 
+INLINE unsigned lanes_left(int left)
+{
+    return left >= HC_LANES ? 0xFFFFU : (1U << left) - 1;
+}
+
 /* Lanes that hold listed blocks which have not been searched before and lie on the right side. */
 INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int left)
 {
@@ -107,35 +103,62 @@ INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int 
     return useful;
 }
 
-/* Choose what a part needs of a list. The lowest line is a concave function of the distance along a
- * unit vector, so between a block's nearest and farthest point it lies above its chord: a plane
- * over the block's samples. No branch depends on what is found; nobody could predict it. */
+/* Choose what a part needs of a list. From a block's nearest point on, no line rises less than the
+ * least slope does, which makes a plane over the block's samples. No branch depends on what is
+ * found; nobody could predict it. */
 INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list,
                           hc_block_choice *chosen)
 {
-    const hc_v  zero  = hc_v_set(0.0F);
-    const float u     = (float)(t->x + 4 * (part & 1)) + 1.5F;
-    const float v     = (float)(t->y + 4 * (part >> 1)) + 1.5F;
-    const float width = block_width(k, t->aspect);
+    const hc_v  zero = hc_v_set(0.0F);
+    const float u    = (float)(t->x + 4 * (part & 1)) + 1.5F;
+    const float v    = (float)(t->y + 4 * (part >> 1)) + 1.5F;
     lines       l;
-    draw_lines(t, part, width, &l);
-    chosen->count = 0;
+    draw_lines(t, part, &l);
+    const hc_v rise = hc_v_set(l.least_slope);
+    chosen->count   = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
         const hc_v     gap_u  = block_gaps(list->x + first, u);
         const hc_v     gap_v  = block_gaps(list->y + first, v);
         const bearings b      = take_bearings(k, t, gap_u, gap_v);
-        const span     s      = lowest_lines(&l, &b);
-        const hc_v     rise   = hc_v_mul(hc_v_sub(s.high, s.low), hc_v_set(1.0F / width));
+        const hc_v     low    = lowest_lines(&l, &b);
         const hc_v     rise_u = hc_v_mul(rise, b.unit_u);
         const hc_v     rise_v = hc_v_mul(rise, hc_v_mul(b.unit_v, hc_v_set(t->aspect)));
         const hc_v     back   = hc_v_add(hc_v_min(rise_u, zero), hc_v_min(rise_v, zero));
-        const unsigned found  = hc_v_greater(hc_v_load(list->top + first), s.low)
+        const unsigned found  = hc_v_greater(hc_v_load(list->top + first), low)
                                & useful_lanes(k, t, gap_u, gap_v, list->count - first);
-        hc_v_store(chosen->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), s.low));
+        hc_v_store(chosen->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), low));
         hc_v_store(chosen->rise_u + first, rise_u);
         hc_v_store(chosen->rise_v + first, rise_v);
         chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found, LANE_INDEX, first);
     }
+}
+
+/* Distant blocks that a part's own envelope does not rule out. Few are left as they are: drawing it
+ * takes as long as two times sixteen blocks. */
+INLINE const hc_node_list *sift_distant(kind k, const tile *t, int part)
+{
+    const hc_node_list *list   = &t->scratch->lists[0];
+    hc_node_list       *sifted = &t->scratch->sifted;
+    if (list->count <= 2 * HC_LANES) {
+        return list;
+    }
+    const envelope hull = draw_envelope(t, part, 1);
+    const hc_v     four = hc_v_set(4.0F);
+    const hc_v     x    = hc_v_set((float)(t->x + 4 * (part & 1)));
+    const hc_v     y    = hc_v_set((float)(t->y + 4 * (part >> 1)));
+    int            n    = 0;
+    for (int i = 0; i < list->count; i += HC_LANES) {
+        const hc_v across = hc_v_sub(hc_v_mul(hc_v_from_ints(list->x + i), four), x);
+        const hc_v down   = hc_v_sub(hc_v_mul(hc_v_from_ints(list->y + i), four), y);
+        const hc_v tops   = hc_v_load(list->top + i);
+        unsigned   found  = promising(k, t, &hull, 4, across, down, tops, 4);
+        found &= lanes_left(list->count - i);
+        (void)hc_pack_lanes(sifted->x + n, found, list->x + i, 0);
+        (void)hc_pack_v(sifted->top + n, found, tops);
+        n += hc_pack_lanes(sifted->y + n, found, list->y + i, 0);
+    }
+    sifted->count = n;
+    return sifted;
 }
 
 INLINE const float *listed_samples(const tile *t, const hc_node_list *list, int b)
@@ -165,13 +188,12 @@ static const int32_t NEAR_STEP[16] = {
 
 /* Samples of all chosen near blocks in one list: its end is the only branch that is hard to
  * predict. */
-INLINE void list_near_samples(const tile *t, int part, const hc_block_choice *chosen,
-                              hc_near_samples *wanted)
+INLINE void list_near_samples(const tile *t, int part, const hc_node_list *list,
+                              const hc_block_choice *chosen, hc_near_samples *wanted)
 {
-    const hc_node_list *list = &t->scratch->near;
-    const int           x    = t->x + 4 * (part & 1);
-    const int           y    = t->y + 4 * (part >> 1);
-    int                 n    = 0;
+    const int x = t->x + 4 * (part & 1);
+    const int y = t->y + 4 * (part >> 1);
+    int       n = 0;
     for (int i = 0; i < chosen->count; i++) {
         const int      b       = chosen->blocks[i];
         const float   *samples = listed_samples(t, list, b);
@@ -191,12 +213,13 @@ INLINE void list_near_samples(const tile *t, int part, const hc_block_choice *ch
 
 INLINE void search_near(kind k, tile *t, int part)
 {
-    hc_near_samples *wanted = &t->scratch->wanted;
-    const float     *table  = t->pass->near->sample[0][0];
-    hc_v             S[4];
-    hc_block_choice  chosen;
-    choose_blocks(k, t, part, &t->scratch->near, &chosen);
-    list_near_samples(t, part, &chosen, wanted);
+    hc_near_samples    *wanted = &t->scratch->wanted;
+    const float        *table  = t->pass->near->sample[0][0];
+    hc_v                S[4];
+    hc_block_choice     chosen;
+    const hc_node_list *list = &t->scratch->near;
+    choose_blocks(k, t, part, list, &chosen);
+    list_near_samples(t, part, list, &chosen, wanted);
     begin_maxima(t, part, S);
     for (int first = 0; first < wanted->count; first += 4) {
         for (int i = 0; i < 4; i++) {
@@ -208,10 +231,10 @@ INLINE void search_near(kind k, tile *t, int part)
 }
 
 /* The distant samples of one block that may limit the part. */
-INLINE void take_distant_block(kind k, tile *t, int part, int b, unsigned samples)
+INLINE void take_distant_block(kind k, tile *t, int part, const hc_node_list *list, int b,
+                               unsigned samples)
 {
-    const hc_node_list *list    = &t->scratch->lists[0];
-    const float        *heights = listed_samples(t, list, b);
+    const float *heights = listed_samples(t, list, b);
     for (; samples != 0; samples &= samples - 1) {
         const int i = __builtin_ctz(samples);
         const int x = 4 * list->x[b] + COLUMN_INDEX[i];
@@ -225,7 +248,7 @@ INLINE void take_distant_block(kind k, tile *t, int part, int b, unsigned sample
 /* First all chosen blocks, then the few that hold something: again without a branch for each. */
 INLINE void search_distant(kind k, tile *t, int part)
 {
-    const hc_node_list *list = &t->scratch->lists[0];
+    const hc_node_list *list = sift_distant(k, t, part);
     hc_block_choice     chosen;
     unsigned            samples[HC_LIST_ROOM];
     int                 hits = 0;
@@ -238,7 +261,7 @@ INLINE void search_distant(kind k, tile *t, int part)
         hits += found != 0;
     }
     for (int i = 0; i < hits; i++) {
-        take_distant_block(k, t, part, chosen.blocks[i], samples[i]);
+        take_distant_block(k, t, part, list, chosen.blocks[i], samples[i]);
     }
 }
 
@@ -249,7 +272,9 @@ INLINE void search_blocks(kind k, tile *t)
     const unsigned known = t->scratch->recent_next;
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         search_near(k, t, part);
-        guess_from_recent(k, t, part, known, t->scratch->recent_next);
+        for (unsigned i = known; i != t->scratch->recent_next; i++) {
+            (void)guess_from_recent(k, t, part, (int)(i % HC_RECENT));
+        }
         search_distant(k, t, part);
     }
     t->scratch->near.count = t->scratch->lists[0].count = 0;

@@ -12,19 +12,8 @@ INLINE hc_v take_near(hc_v S, hc_v height, float sample, const float *weights)
     return hc_v_max(hc_v_mul(rise, hc_v_load(weights)), S);
 }
 
-/* All samples of a near block. Maxima in turn: one chain would take longer than all the rest. */
-INLINE void take_near_block(hc_v S[4], hc_v height, const hc_near_table *table,
-                            const float *samples, int dx, int dy)
-{
-    for (int c = 0; c < 4; c++) {
-        const float *weights = hc_near_weights(table, dx + c, dy);
-        for (int r = 0; r < 4; r++) {
-            S[c] = take_near(S[c], height, samples[4 * r + c], weights - 4 * r);
-        }
-    }
-}
-
-/* Four maxima begin with S and end in S, which lets T rise. */
+/* Four maxima in turn begin with S and end in S, which lets T rise: one chain would take longer than
+ * all the rest. */
 INLINE void begin_maxima(const tile *t, int part, hc_v S[4])
 {
     for (int i = 0; i < 4; i++) {
@@ -84,31 +73,41 @@ INLINE bool take_distant(kind k, tile *t, int part, int x, int y, float height)
     return true;
 }
 
-/* A real sample's steepness, lowered, is a threshold: guesses from recent limits number `first` to
- * `last` - 1. */
-INLINE void guess_from_recent(kind k, tile *t, int part, unsigned first, unsigned last)
+/* A real sample's steepness, lowered, is a threshold: a guess from recent limit number i. True if
+ * it raised the threshold of a sample of the part. */
+INLINE bool guess_from_recent(kind k, tile *t, int part, int i)
 {
     const hc_exact_pass    *pass    = t->pass;
     const hc_exact_scratch *scratch = t->scratch;
-    const hc_v              columns = part_columns(t, part);
-    const hc_v              rows    = part_rows(t, part);
-    hc_v                    best    = hc_v_set(0.0F);
-    for (unsigned j = first; j != last; j++) {
-        const unsigned i      = j % HC_RECENT;
-        const hc_v     across = hc_v_sub(hc_v_set(scratch->recent_x[i]), columns);
-        const hc_v     below  = hc_v_sub(hc_v_set(scratch->recent_y[i]), rows);
-        const hc_v     down   = hc_v_mul(below, hc_v_set(t->aspect));
-        const hc_v     size =
-            k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down)) : measure(k, across, down);
-        const hc_v root = hc_v_about_rsqrt(size);
-        hc_v       rise = hc_v_sub(hc_v_set(scratch->recent_height[i]), t->height[part]);
-        if (k.quadrant) {
-            rise = hc_v_keep(in_quadrant(pass, across, down), rise);
-        }
-        /* the sample itself, 0 * infinity, keeps best */
-        best = hc_v_max(hc_v_mul(rise, k.diamond ? hc_v_mul(root, root) : root), best);
+    const hc_v across = hc_v_sub(hc_v_set(scratch->recent_x[i]), part_columns(t, part));
+    const hc_v below  = hc_v_sub(hc_v_set(scratch->recent_y[i]), part_rows(t, part));
+    const hc_v down   = hc_v_mul(below, hc_v_set(t->aspect));
+    const hc_v size =
+        k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down)) : measure(k, across, down);
+    const hc_v root = hc_v_about_rsqrt(size);
+    hc_v       rise = hc_v_sub(hc_v_set(scratch->recent_height[i]), t->height[part]);
+    if (k.quadrant) {
+        rise = hc_v_keep(in_quadrant(pass, across, down), rise);
     }
-    t->T[part] = hc_v_max(hc_v_mul(best, hc_v_set(LOWER / pass->step_u)), t->T[part]);
+    const hc_v steepness = hc_v_mul(rise, k.diamond ? hc_v_mul(root, root) : root);
+    const hc_v lowered   = hc_v_mul(steepness, hc_v_set(LOWER / pass->step_u));
+    const bool raised    = hc_v_greater(lowered, t->T[part]) != 0;
+    /* the sample itself, 0 * infinity, keeps T */
+    t->T[part] = hc_v_max(lowered, t->T[part]);
+    return raised;
+}
+
+/* Guesses from those recent limits whose bits are set. Returns which of them raised thresholds. */
+INLINE unsigned guess_from_all(kind k, tile *t, unsigned guesses)
+{
+    unsigned raised = 0;
+    for (; guesses != 0; guesses &= guesses - 1) {
+        const int i = __builtin_ctz(guesses);
+        for (int part = 0; part < HC_TILE_PARTS; part++) {
+            raised |= (unsigned)guess_from_recent(k, t, part, i) << i;
+        }
+    }
+    return raised;
 }
 
 /* First in, first out; but one that limits again when its turn has come stays. */
@@ -123,6 +122,7 @@ static void remember(hc_exact_scratch *scratch, int x, int y, float height)
         scratch->recent_x[oldest]      = (float)x;
         scratch->recent_y[oldest]      = (float)y;
         scratch->recent_height[oldest] = height;
+        scratch->recent_useful |= 1U << oldest;
     }
     scratch->recent_next += known < 0 || known == oldest;
 }

@@ -16,6 +16,9 @@
 #define HC_NEAR_SIDE (2 * HC_NEAR_REACH + 4)
 #define HC_NEAR_GROUPS (HC_NEAR_SIDE + 3)
 
+/* All samples up to this many columns and rows away are looked at before anything else. */
+#define HC_AROUND_REACH 7
+
 typedef struct hc_near_table {
     /* Weights of a sample c columns and r rows from a part's first sample, seen from its sixteen
      * samples: the weight for a sample in row l of the part depends on r - l only, so that the
@@ -23,6 +26,7 @@ typedef struct hc_near_table {
      * of four for falling r - l, and hc_near_weights finds the first of the sixteen. 0 for the
      * sample itself and outside the quadrant. */
     _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_GROUPS][4];
+    float around[HC_AROUND_REACH + 1][HC_AROUND_REACH + 1]; /* [rows][columns], into the quadrant */
 } hc_near_table;
 
 static inline const float *hc_near_weights(const hc_near_table *table, int column, int row)
@@ -69,14 +73,25 @@ typedef struct hc_near_samples {
 _Static_assert((2 * HC_NEAR_REACH / 4 + 1) * (2 * HC_NEAR_REACH / 4 + 1) <= HC_LIST,
                "near blocks must fit a list");
 
+/* The steepest samples around those of two tiles side by side, part by part: both are done at once
+ * and most tiles come after their neighbour. */
+typedef struct hc_around {
+    _Alignas(64) float steepness[2][HC_TILE_PARTS][16];
+    int  pair_x, tile_y;
+    bool known;
+} hc_around;
+
 /* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are
  * first guesses for the next tile, which its result does not depend on. */
 typedef struct hc_exact_scratch {
     hc_node_list    lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
     hc_node_list    near;
+    hc_node_list    sifted; /* lists[0], as far as a part needs it */
     hc_near_samples wanted;
+    hc_around       around;
     float           recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
     unsigned        recent_next;
+    unsigned        recent_useful; /* bit i: number i raised thresholds of the last tile */
 } hc_exact_scratch;
 
 /* Search one tile: the largest steepness of each sample into `steepness` (HC_TILE_SIDE rows of

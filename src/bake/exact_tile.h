@@ -46,6 +46,9 @@ typedef struct tile {
     hc_v     T[HC_TILE_PARTS];
 } tile;
 
+/* From a tile's first sample to its middle. */
+#define MIDDLE (0.5F * (HC_TILE_SIDE - 1))
+
 /* Samples outside the field count as higher than all: nothing limits them. */
 #define ABOVE_ALL 4.0F
 
