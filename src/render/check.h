@@ -6,6 +6,8 @@
 
 #include <math.h>
 
+#define HC_FARTHEST 1e30
+
 static inline hc_result check_whole(const char *what, int value, int low, int high, hc_log *log)
 {
     return value >= low && value <= high
@@ -23,12 +25,14 @@ static inline hc_result check_number(const char *what, float value, float low, f
                          (double)value, (double)low, (double)high);
 }
 
+/* Rays are float, so there is an end. */
 static inline hc_result check_point(const char *what, const double point[3], hc_log *log)
 {
-    return isfinite(point[0]) && isfinite(point[1]) && isfinite(point[2])
+    return fabs(point[0]) <= HC_FARTHEST && fabs(point[1]) <= HC_FARTHEST
+                   && fabs(point[2]) <= HC_FARTHEST /* false for NaN */
                ? HC_OK
-               : hc_fail(log, HC_ERROR_ARGUMENT, "%s is %g, %g, %g; it must be finite", what,
-                         point[0], point[1], point[2]);
+               : hc_fail(log, HC_ERROR_ARGUMENT, "%s is %g, %g, %g; it must be within %g", what,
+                         point[0], point[1], point[2], HC_FARTHEST);
 }
 
 static inline bool is_zero(const double point[3])

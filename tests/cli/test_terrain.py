@@ -202,6 +202,8 @@ class Terrain(Case):
             figures = self.render("--backend", "gl", "--method", "maxmip", "--polygons", polygons)
             self.assertAlmostEqual(figures["hits"], rays, delta=0.02 * rays)
             self.assertEqual(figures["mean_fetches"], 0)
+        self.refuse("--out", "b.png", "--polygons", "lod", "--backend", "gl", "--detail",
+                    ELEVATIONS, code=BAD_FILE, says="too coarse")
 
     def write_texels(self, name, width, height, texels):
         """Of 8 bits; channels by their number."""
@@ -234,6 +236,7 @@ class Terrain(Case):
             ["--detail", "d.png,100,20", "--detail", "d.png,c.png,33", "--mask", "m.png"],
             ["--detail", "d.png,100,20", "--detail-method", "steps", "--detail-steps", "3"],
             ["--detail", "d.png,c.png"],
+            ["--detail", "d.png,100,20", "--surface", "steps"],
         ]]
         for i, one in enumerate(pictures):
             for other in pictures[i + 1:]:
@@ -263,7 +266,6 @@ class Terrain(Case):
              "small.png is 23 x 17; the terrain has 24 x 17 samples"),
             (four + ["--mask", "rgb.png"], BAD_FILE, "rgb.png has 3 channels; 4 details"),
             (["--detail", "none.png"], INPUT_OUTPUT, "none.png"),
-            (["--detail", "d.png", "--surface", "steps"], BAD_FILE, "steps have none"),
         ]:
             with self.subTest(arguments=arguments):
                 self.refuse(*out, *arguments, code=code, says=says)
@@ -322,7 +324,8 @@ class Terrain(Case):
         self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
                     says=["bad.obj", "line 2"])
         self.path("all.txt").write_text("none.obj 1 2 3 4\n")
-        self.refuse("--out", "a.png", "--objects", "all.txt", code=INPUT_OUTPUT, says="none.obj")
+        self.refuse("--out", "a.png", "--objects", "all.txt", code=INPUT_OUTPUT,
+                    says=["all.txt, line 1: none.obj", "bodies are ball, box, cone, house"])
         self.refuse("--out", "a.png", "--objects", "none.txt", code=INPUT_OUTPUT, says="none.txt")
 
     def test_an_eye_under_the_ground_is_told(self):
@@ -354,6 +357,8 @@ class Terrain(Case):
             (["--out", "a.png", "--size", "70000x1"], "65536"),
             (["--out", "a.png", "--wrap", "u"], "--wrap"),
             (["--out", "a.png", "--eye", "1,2,nan"], "three numbers"),
+            (["--out", "a.png", "--light", "0,0,0"], "no direction"),
+            (["--out", "a.png", "--spacing", "20", "--eye", "1,2,1e31"], "within 1e+30"),
         ]:
             with self.subTest(arguments=arguments):
                 self.refuse(*arguments, says=says)

@@ -8,7 +8,6 @@
 #include "relief.h"
 #include "words.h"
 
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -17,15 +16,9 @@ enum { WIDTH = 960, HEIGHT = 640, LEGEND_HEIGHT = 8, LEGEND_LEAST = 160, MARGIN 
 
 /* ---- choices that make no sense ---- */
 
-static int check_light(hc_cli *cli)
+static int check_colour(hc_cli *cli)
 {
-    const hc_cli_settings *settings = &cli->settings;
-    const double          *light    = settings->render.light;
-    const double          *colour   = settings->render.colour;
-    if (hc_cli_given(settings, "light")
-        && fabs(light[0]) + fabs(light[1]) + fabs(light[2]) == 0.0) {
-        return hc_cli_fail(cli, HC_CLI_USAGE, "--light 0,0,0 is no direction");
-    }
+    const double *colour = cli->settings.render.colour;
     for (int i = 0; i < 3; i++) {
         if (!(colour[i] >= 0.0 && colour[i] <= 1.0)) {
             return hc_cli_fail(cli, HC_CLI_USAGE, "--colour: %g is not from 0 to 1", colour[i]);
@@ -74,7 +67,7 @@ static int check_meaning(hc_cli *cli)
     }
     int code = hc_cli_check_pairs(cli, pairs, sizeof pairs / sizeof *pairs);
     code     = code == HC_CLI_DONE ? hc_cli_check_drawing(cli) : code;
-    code     = code == HC_CLI_DONE ? check_light(cli) : code;
+    code     = code == HC_CLI_DONE ? check_colour(cli) : code;
     code     = code == HC_CLI_DONE ? check_lod(cli) : code;
     return code == HC_CLI_DONE ? check_animation(cli) : code;
 }

@@ -133,7 +133,7 @@ static int draw_frames(hc_cli *cli, hc_cli_totals *t, hc_picture *picture,
     return HC_CLI_DONE;
 }
 
-/* Where there is no OpenGL the CPU draws, as long as it may. */
+/* Where there is no OpenGL the CPU draws, as long as it may, and can: it has no polygons. */
 static hc_result make(hc_terrain **terrain, hc_cli *cli, const hc_terrain_scene *scene)
 {
     hc_cli_settings  *settings = &cli->settings;
@@ -143,7 +143,7 @@ static hc_result make(hc_terrain **terrain, hc_cli *cli, const hc_terrain_scene 
                                    .progress = hc_cli_progress(cli) };
     hc_cli_phase(cli, "build");
     hc_result result = hc_terrain_create(terrain, scene, &options, &cli->log);
-    if (hc_cli_falls_back(cli, result, "draws")) {
+    if (scene->polygons == HC_POLYGONS_NONE && hc_cli_falls_back(cli, result, "draws")) {
         options.backend = HC_BACKEND_CPU;
         result          = hc_terrain_create(terrain, scene, &options, &cli->log);
     }

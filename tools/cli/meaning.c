@@ -4,6 +4,8 @@
 #include "picture.h"
 #include "words.h"
 
+#include <math.h>
+
 enum { SIDE_MAX = 65536 };
 
 int hc_cli_check_pairs(hc_cli *cli, const char *const (*pairs)[2], size_t count)
@@ -41,9 +43,14 @@ int hc_cli_check_drawing(hc_cli *cli)
 {
     const hc_cli_settings *settings = &cli->settings;
     const hc_cones         cones    = settings->map.cone.cones;
+    const double          *light    = settings->render.light;
     const int              code     = check_size(cli);
     if (code != HC_CLI_DONE) {
         return code;
+    }
+    if (hc_cli_given(settings, "light")
+        && fabs(light[0]) + fabs(light[1]) + fabs(light[2]) == 0.0) {
+        return hc_cli_fail(cli, HC_CLI_USAGE, "--light 0,0,0 is no direction");
     }
     if (settings->render.refine != HC_CLI_BINARY && settings->rays.refinements > 0) {
         return hc_cli_fail(cli, HC_CLI_USAGE, "--refinements does nothing with --refine %s",

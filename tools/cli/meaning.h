@@ -14,7 +14,7 @@ int hc_cli_check_pairs(hc_cli *cli, const char *const (*pairs)[2], size_t count)
 /* What draws. --backend auto has become gl by then, from which hc_cli_falls_back may lead. */
 hc_backend hc_cli_drawn_by(const hc_cli_settings *settings);
 
-/* The picture's size, refinements, cones. Returns the exit code. */
+/* The picture's size, refinements, cones, the light. Returns the exit code. */
 int hc_cli_check_drawing(hc_cli *cli);
 
 #endif

@@ -1,5 +1,6 @@
 #include "objects.h"
 
+#include "options.h"
 #include "textfile.h"
 
 #include <stdio.h>
@@ -74,6 +75,11 @@ static bool grow(hc_cli_objects *o)
     return objects != NULL && meshes != NULL;
 }
 
+static const char *solid_words(int index)
+{
+    return hc_solid_name((hc_solid)index);
+}
+
 static int take_line(void *user, hc_cli *cli, char **words, int count, int line)
 {
     hc_cli_objects *o      = user;
@@ -93,6 +99,12 @@ static int take_line(void *user, hc_cli *cli, char **words, int count, int line)
         return hc_cli_fail_memory(cli);
     }
     const hc_result result = make_mesh(&o->meshes[o->count], cli, words[0]);
+    if (result == HC_ERROR_IO) { /* a body's name, perhaps */
+        char known[64];
+        hc_cli_join_words(known, sizeof known, solid_words, ", ");
+        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s, line %d: %s; bodies are %s", path, line,
+                           cli->log.text, known);
+    }
     if (result != HC_OK) {
         return hc_cli_fail_result(cli, result);
     }
