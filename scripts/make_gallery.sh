@@ -102,7 +102,8 @@ done
 for tour in fly walk; do
     terrain crossings_$tour --tour $tour --method maxmip --view crossings --size 480x270
 done
-near=(--eye 9000,-16500,900 --at 12500,-13000,350 --colours plain --haze 1e30 --size 400x300)
+near=(--eye 10900,-14600,800 --at 10300,-15300,500 --above 120 --colours plain --haze 1e30
+    --size 400x300)
 terrain near_steps "${near[@]}" --surface steps
 terrain near_blocky "${near[@]}" --blocky
 terrain near_smooth "${near[@]}"
