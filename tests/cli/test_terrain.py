@@ -176,9 +176,9 @@ class Terrain(Case):
     def test_tiles_have_no_seams(self):
         for shared in [1, 0]:
             whole, tiles = self.cut("w", 1, 1, shared), self.cut("t", 4, 4, shared)
-            for view in ["shaded", "depth"]:
-                one = self.picture("--range", "0:2000", "--view", view, field=whole[0])
-                many = self.picture("--range", "0:2000", "--view", view, *tiles[1:], field=tiles[0])
+            for drawn in ["--backend", "gl"], ["--view", "shaded"], ["--view", "depth"]:
+                one = self.picture("--range", "0:2000", *drawn, field=whole[0])
+                many = self.picture("--range", "0:2000", *drawn, *tiles[1:], field=tiles[0])
                 self.assertEqual(one, many)
             self.assertEqual(one, self.picture("--range", "0:2000", "--view", "depth", "--tiles",
                                                "4x4", "--seams", ["apart", "shared"][shared],
