@@ -2,10 +2,11 @@
 """How the steps of rays grow with the field: tables in Markdown and a plot (docs/measuring.md).
 
 usage: growth.py [--program build/heightcast] [--csv bench/results/steps.csv]
-                 [--plot docs/gallery/steps.png] [--sizes N,...] [FIELD ...]
+                 [--plot docs/gallery/steps.png] [--sizes N,...] [--methods NAME,...] [FIELD ...]
 
 Measures with `heightcast bench steps`, which takes an hour for all made fields, and writes the CSV;
-without any FIELD the CSV is taken as it is. The plot needs gnuplot.
+rows of what is not measured, other fields and other methods, stay. Without any FIELD the CSV is
+taken as it is. The plot needs gnuplot.
 """
 
 import argparse
@@ -47,21 +48,31 @@ unset multiplot
 """
 
 
-def measure(args):
-    with open(args.csv, "w", newline="") as out, tempfile.TemporaryDirectory() as folder:
-        part = pathlib.Path(folder) / "part.csv"
-        for number, field in enumerate(args.fields):
-            subprocess.run([args.program, "bench", "steps", "-q", "--field", field, "--sizes",
-                            args.sizes, "--csv", str(part), "--overwrite"], check=True)
-            lines = part.read_text().splitlines(keepends=True)
-            out.writelines(lines if number == 0 else lines[1:])
-
-
 def read(path):
     """(field, method, set of rays, side) -> row"""
     with open(path, newline="") as file:
         return {(r["field"], r["method"], r["rays"], int(r["side"])): r
                 for r in csv.DictReader(file)}
+
+
+def write(path, rows):
+    with open(path, "w", newline="") as file:
+        out = csv.DictWriter(file, next(iter(rows.values())).keys(), lineterminator="\n")
+        out.writeheader()
+        out.writerows(rows.values())
+
+
+def measure(args):
+    """The rows of the CSV, with those that are measured anew; it is written after every field."""
+    rows = read(args.csv) if pathlib.Path(args.csv).exists() else {}
+    with tempfile.TemporaryDirectory() as folder:
+        part = pathlib.Path(folder) / "part.csv"
+        for field in args.fields:
+            subprocess.run([args.program, "bench", "steps", "-q", "--field", field, "--sizes",
+                            args.sizes, "--methods", args.methods, "--csv", str(part),
+                            "--overwrite"], check=True)
+            rows.update(read(part))
+            write(args.csv, rows)
 
 
 def value(rows, field, method, panel, side):
@@ -128,6 +139,7 @@ def main():
     parser.add_argument("--csv", default=str(ROOT / "bench/results/steps.csv"))
     parser.add_argument("--plot", default=str(ROOT / "docs/gallery/steps.png"))
     parser.add_argument("--sizes", default="64,128,256,512,1024,2048,4096")
+    parser.add_argument("--methods", default=",".join(METHODS))
     parser.add_argument("fields", nargs="*", metavar="FIELD")
     args = parser.parse_args()
     if args.fields:
