@@ -161,26 +161,27 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
 static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active, unsigned *sinking,
                                   ground kind)
 {
-    const hc_v     s       = hc_v_load(b->s);
-    const hc_v     z       = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
-    const hc_v     down    = hc_v_sub(hc_v_set(0.0F), hc_v_load(b->dz));
-    const hc_i     level   = hc_i_load(b->level);
-    const hc_i     shift   = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
-    const footing  x       = find_footing(b, 0, s, shift, fast->x.cells);
-    const footing  y       = find_footing(b, 1, s, shift, fast->y.cells);
-    const unsigned wide    = is_wide(&x) | is_wide(&y);
-    const unsigned fits    = active & ~wide;
-    const cover    c       = cover_box(fast, b, &x, &y, level, fits, kind);
-    const hc_v     wall    = hc_v_max(hc_v_min(x.out, y.out), hc_v_set(0.0F));
-    const hc_v     out     = hc_v_add(wall, hc_v_set(fast->blur));
-    const hc_v     leave   = hc_v_sub(z, hc_v_mul(out, down));
-    const unsigned above   = hc_v_greater(z, c.top) & fits;
-    const unsigned clear   = above & hc_v_greater(leave, c.top);
-    const hc_v     beyond  = go_beyond(fast, c.code, shift, hc_v_sub(leave, c.top), down, kind);
-    const hc_v     descent = hc_v_max(down, hc_v_set(0x1p-60F));
-    const hc_v     part    = hc_v_about_over(hc_v_sub(z, c.top), descent);
-    const hc_v     step    = hc_v_pick(clear, hc_v_add(out, beyond), part);
-    const hc_v     ahead   = hc_v_pick(above, hc_v_add(s, step), s);
+    const hc_v     s     = hc_v_load(b->s);
+    const hc_v     z     = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
+    const hc_v     down  = hc_v_sub(hc_v_set(0.0F), hc_v_load(b->dz));
+    const hc_i     level = hc_i_load(b->level);
+    const hc_i     shift = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
+    const footing  x     = find_footing(b, 0, s, shift, fast->x.cells);
+    const footing  y     = find_footing(b, 1, s, shift, fast->y.cells);
+    const unsigned wide  = is_wide(&x) | is_wide(&y);
+    const unsigned fits  = active & ~wide;
+    const cover    c     = cover_box(fast, b, &x, &y, level, fits, kind);
+    const hc_v     wall  = hc_v_max(hc_v_min(x.out, y.out), hc_v_set(0.0F));
+    const hc_v     out   = hc_v_add(wall, hc_v_set(fast->blur));
+    const hc_v     leave = hc_v_sub(z, hc_v_mul(out, down));
+    const unsigned above = hc_v_greater(z, c.top) & fits;
+    const unsigned clear = above & hc_v_greater(leave, c.top);
+    const hc_v     side  = hc_v_from_i(hc_i_left(hc_i_set(1), shift));
+    const hc_v beyond    = go_beyond(fast, c.code, shift, hc_v_sub(leave, c.top), down, side, kind);
+    const hc_v descent   = hc_v_max(down, hc_v_set(0x1p-60F));
+    const hc_v part      = hc_v_about_over(hc_v_sub(z, c.top), descent);
+    const hc_v step      = hc_v_pick(clear, hc_v_add(out, beyond), part);
+    const hc_v ahead     = hc_v_pick(above, hc_v_add(s, step), s);
     hc_v_store(b->s, ahead);
 
     const unsigned rises   = clear | (wide & active & ~*sinking);

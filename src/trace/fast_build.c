@@ -24,7 +24,8 @@ typedef struct level {
     int            width, height, side; /* blocks; cells a side */
     size_t         pitch;
     float         *frame, *tops;
-    float         *far; /* four slopes a block: of what lies beyond the first diagonal */
+    float         *edges; /* four frames, on sparse ground: what stands a cell behind each side */
+    float         *far;   /* four slopes a block: of what lies beyond the first diagonal */
     hc_fast_block *blocks;
 } level;
 
@@ -110,18 +111,137 @@ static void top_blocks(void *context, int y, int worker)
     }
 }
 
-/* Highest on diagonal m of each of TILE blocks: tops[x + dx * i], i columns and m - i rows away. */
-static void diagonal_top(float *highest, const float *tops, ptrdiff_t dx, ptrdiff_t dy, int m)
+/* ---- edges ----------------------------------------------------------------------------------- */
+
+/* Sides of blocks. What a ray meets that strays over one of them lies between the samples on it,
+ * which are the neighbour's as well, and those a cell behind it. */
+enum { LEFT, RIGHT, ABOVE, BELOW, SIDES };
+
+static size_t frame_size(const level *l)
 {
-    const float *row = tops + dy * m;
-    for (int x = 0; x < TILE; x++) {
-        highest[x] = row[x];
-    }
-    for (int i = 1; i <= m; i++) {
-        row = tops + dx * i + dy * (m - i);
-        for (int x = 0; x < TILE; x++) {
-            highest[x] = larger(highest[x], row[x]);
+    return l->pitch * (size_t)(l->height + 2 * DIAGONALS + 1);
+}
+
+static float *edge_of(const level *l, int side, int x, int y)
+{
+    const ptrdiff_t row = (ptrdiff_t)y * (ptrdiff_t)l->pitch;
+    return l->edges + (size_t)side * frame_size(l) + (l->tops - l->frame) + row + x;
+}
+
+/* In the finest blocks what stands a cell behind one side stands as far behind the other. */
+static void edge_cells(void *context, int y, int worker)
+{
+    const builder *b    = context;
+    const hc_fast *fast = b->fast;
+    const level   *l    = &b->levels[0];
+    const int      last = y * BASE + BASE < fast->y.cells ? y * BASE + BASE : fast->y.cells;
+    (void)worker;
+    for (int x = 0; x < l->width; x++) {
+        const int end    = x * BASE + BASE < fast->x.cells ? x * BASE + BASE : fast->x.cells;
+        float     column = 0.0F;
+        float     row    = 0.0F;
+        for (int j = y * BASE; j <= last; j++) {
+            column = larger(column, fast->heights[hc_fast_corner(fast, x * BASE + 1, j)]);
         }
+        for (int i = x * BASE; i <= end; i++) {
+            row = larger(row, fast->heights[hc_fast_corner(fast, i, y * BASE + 1)]);
+        }
+        *edge_of(l, LEFT, x, y)  = column;
+        *edge_of(l, RIGHT, x, y) = column;
+        *edge_of(l, ABOVE, x, y) = row;
+        *edge_of(l, BELOW, x, y) = row;
+    }
+}
+
+/* From those of the blocks along the side. */
+static void edge_blocks(void *context, int y, int worker)
+{
+    const builder *b      = context;
+    const level   *fine   = &b->levels[b->current - 1];
+    const level   *coarse = &b->levels[b->current];
+    const int      high   = fine->height - y * RATIO < RATIO ? fine->height - y * RATIO : RATIO;
+    (void)worker;
+    for (int x = 0; x < coarse->width; x++) {
+        const int wide = fine->width - x * RATIO < RATIO ? fine->width - x * RATIO : RATIO;
+        for (int side = 0; side < SIDES; side++) {
+            const bool upright = side == LEFT || side == RIGHT;
+            float      most    = 0.0F;
+            for (int k = 0; k < (upright ? high : wide); k++) {
+                const int i = upright ? (side == LEFT ? 0 : wide - 1) : k;
+                const int j = upright ? k : (side == ABOVE ? 0 : high - 1);
+                most        = larger(most, *edge_of(fine, side, x * RATIO + i, y * RATIO + j));
+            }
+            *edge_of(coarse, side, x, y) = most;
+        }
+    }
+}
+
+/* Beyond the ends of a repeating field everything may stand. */
+static void close_ends(const hc_fast *fast, const level *l)
+{
+    for (int y = -1; fast->x.wrapped && y <= l->height; y++) {
+        *edge_of(l, RIGHT, -1, y)      = 1.0F;
+        *edge_of(l, LEFT, l->width, y) = 1.0F;
+    }
+    for (int x = -1; fast->y.wrapped && x <= l->width; x++) {
+        *edge_of(l, BELOW, x, -1)        = 1.0F;
+        *edge_of(l, ABOVE, x, l->height) = 1.0F;
+    }
+}
+
+/* True if nothing up to a cell beyond the block is higher. */
+static bool is_open(const level *l, int x, int y)
+{
+    float around = larger(*edge_of(l, BELOW, x, y - 1), *edge_of(l, ABOVE, x, y + 1));
+    for (int j = y - 1; j <= y + 1; j++) {
+        around = larger(around, *edge_of(l, RIGHT, x - 1, j));
+        around = larger(around, *edge_of(l, LEFT, x + 1, j));
+    }
+    return around <= l->tops[(size_t)y * l->pitch + (size_t)x];
+}
+
+/* ---- slopes ---------------------------------------------------------------------------------- */
+
+/* A quadrant as TILE blocks see it. `edges`, on sparse ground, are those of the two rows of blocks
+ * beside it, so that no ray strays out of what is known. */
+typedef struct view {
+    const float *tops, *edges[2];
+    ptrdiff_t    dx, dy;
+    int          side;
+} view;
+
+static view view_from(const builder *b, const level *l, int x, int y, int quadrant)
+{
+    const bool back = (quadrant & 1) != 0;
+    const bool up   = (quadrant & 2) != 0;
+    view       v    = { .tops = l->tops + (size_t)y * l->pitch + x,
+                        .dx   = back ? -1 : 1,
+                        .dy   = up ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch,
+                        .side = l->side };
+    if (b->sparse) {
+        v.edges[0] = edge_of(l, back ? LEFT : RIGHT, back ? x + 1 : x - 1, y);
+        v.edges[1] = edge_of(l, up ? ABOVE : BELOW, x, up ? y + 1 : y - 1);
+    }
+    return v;
+}
+
+static void keep_higher(float *highest, const float *row)
+{
+    for (int x = 0; x < TILE; x++) {
+        highest[x] = larger(highest[x], row[x]);
+    }
+}
+
+/* Highest on diagonal m of each of TILE blocks: tops[x + dx * i], i columns and m - i rows away. */
+static void diagonal_top(float *highest, const view *v, int m)
+{
+    memcpy(highest, v->tops + v->dy * m, TILE * sizeof *highest);
+    for (int i = 1; i <= m; i++) {
+        keep_higher(highest, v->tops + v->dx * i + v->dy * (m - i));
+    }
+    if (v->edges[0] != NULL) {
+        keep_higher(highest, v->edges[0] + v->dy * m);
+        keep_higher(highest, v->edges[1] + v->dx * m);
     }
 }
 
@@ -137,8 +257,7 @@ static void count_open(float *ways, const float *highest, const float *tops, int
 /* Steepest slope from each of TILE blocks to diagonals first .. DIAGONALS; a diagonal of blocks as
  * wide as `side` is at least (m - 2) * side + 2 cells away, and `least`. `ways`, unless NULL,
  * counts the diagonals from the first up to which none is higher than the block. */
-static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t dx, ptrdiff_t dy,
-                        int side, int first, float least)
+static void near_slopes(float *slopes, float *ways, const view *v, int first, float least)
 {
     float highest[TILE];
     memset(slopes, 0, TILE * sizeof *slopes);
@@ -146,14 +265,14 @@ static void near_slopes(float *slopes, float *ways, const float *tops, ptrdiff_t
         memset(ways, 0, TILE * sizeof *ways);
     }
     for (int m = first; m <= DIAGONALS; m++) {
-        const float distance = larger((float)((m - 2) * side + 2), least);
+        const float distance = larger((float)((m - 2) * v->side + 2), least);
         const float weight   = 1.0F / distance;
-        diagonal_top(highest, tops, dx, dy, m);
+        diagonal_top(highest, v, m);
         for (int x = 0; x < TILE; x++) {
-            slopes[x] = larger(slopes[x], (highest[x] - tops[x]) * weight);
+            slopes[x] = larger(slopes[x], (highest[x] - v->tops[x]) * weight);
         }
         if (ways != NULL) {
-            count_open(ways, highest, tops, m - first);
+            count_open(ways, highest, v->tops, m - first);
         }
     }
 }
@@ -191,13 +310,11 @@ static void far_row(void *context, int y, int worker)
     float          slopes[TILE];
     (void)worker;
     for (int x = 0; x < l->width; x += TILE) {
-        const float *tops  = l->tops + (size_t)y * l->pitch + x;
-        float       *out   = l->far + ((size_t)y * (size_t)l->width + (size_t)x) * 4;
-        const int    count = tile_count(l, x);
+        float    *out   = l->far + ((size_t)y * (size_t)l->width + (size_t)x) * 4;
+        const int count = tile_count(l, x);
         for (int q = 0; q < 4; q++) {
-            const ptrdiff_t dx = (q & 1) != 0 ? -1 : 1;
-            const ptrdiff_t dy = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            near_slopes(slopes, NULL, tops, dx, dy, l->side, 2, least);
+            const view v = view_from(b, l, x, y, q);
+            near_slopes(slopes, NULL, &v, 2, least);
             add_far(slopes, b, b->current, x, y, q, count);
             for (int i = 0; i < count; i++) {
                 out[4 * i + q] = slopes[i];
@@ -253,24 +370,29 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
 }
 
 /* A ray may be up to three blurs from where it is marched: what stands there is seen with this
- * weight from any quadrant. The way to what stands near it, on sparse ground, is not known: there
- * it counts with the steepest of all. */
-static void store_block(const builder *b, hc_fast_block *block, float top, const float slopes[4],
-                        const float ways[4])
+ * weight from any quadrant. */
+static void store_block(const hc_fast *fast, hc_fast_block *block, float top, const float slopes[4])
 {
     const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
-    const float blur     = b->fast->blur;
-    const float raise    = b->sparse ? b->fast->slack : 6.0F * blur * steepest + CLEARANCE;
-    block->top           = top + raise;
+    block->top           = top + 6.0F * fast->blur * steepest + CLEARANCE;
     for (int q = 0; q < 4; q++) {
-        const float slope = slopes[q] + 3.0F * blur * steepest;
-        if (b->sparse) {
-            const uint8_t code = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
-            const int     far  = ways[q] > 1.0F ? (int)ways[q] - 1 : 0;
-            block->slopes[q]   = (uint8_t)(code << HC_FAST_FREE_BITS | far);
-        } else {
-            block->slopes[q] = encode(slope, HC_FAST_SLOPE_SHIFT, HC_FAST_SLOPE_BIAS, 255);
-        }
+        block->slopes[q] = encode(slopes[q] + 3.0F * fast->blur * steepest, HC_FAST_SLOPE_SHIFT,
+                                  HC_FAST_SLOPE_BIAS, 255);
+    }
+}
+
+/* On sparse ground what stands next to a block, if it is higher, may be met with the steepest slope
+ * of all. If nothing is, up to a cell away, whatever is higher stands two cells away. */
+static void store_sparse(const hc_fast *fast, hc_fast_block *block, float top, bool open,
+                         const float slopes[4], const float ways[4])
+{
+    const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
+    const float wide     = 3.0F * fast->blur;
+    block->top           = top + (open ? fast->least : fast->slack);
+    for (int q = 0; q < 4; q++) {
+        const float   slope = open ? slopes[q] * (1.0F + wide) : slopes[q] + wide * steepest;
+        const uint8_t code  = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
+        block->slopes[q]    = (uint8_t)(code << HC_FAST_FREE_BITS | (int)ways[q]);
     }
 }
 
@@ -299,10 +421,9 @@ static void block_row(void *context, int y, int worker)
         const float *tops  = l->tops + (size_t)y * l->pitch + x;
         const int    count = tile_count(l, x);
         for (int q = 0; q < 4 && !b->fast->steps; q++) {
-            const ptrdiff_t dx   = (q & 1) != 0 ? -1 : 1;
-            const ptrdiff_t dy   = (q & 2) != 0 ? -(ptrdiff_t)l->pitch : (ptrdiff_t)l->pitch;
-            float *const    open = k == 0 || b->sparse ? ways[q] : NULL;
-            near_slopes(slopes[q], open, tops, dx, dy, l->side, 1, 1.0F);
+            const view   v    = view_from(b, l, x, y, q);
+            float *const open = k == 0 || b->sparse ? ways[q] : NULL;
+            near_slopes(slopes[q], open, &v, 1, 1.0F);
             add_far(slopes[q], b, k, x, y, q, count);
             stops += k == 0 ? stop_free(b, slopes[q], ways[q], count) : 0;
         }
@@ -313,7 +434,12 @@ static void block_row(void *context, int y, int worker)
                 const float child = k == 0 ? slopes[q][i] : child_slope(b, k, x + i, y, q);
                 slope[q]          = child < slopes[q][i] ? child : slopes[q][i];
             }
-            store_block(b, &row[(x + i) << HC_FAST_BLOCK_BITS], tops[i], slope, way);
+            hc_fast_block *const block = &row[(x + i) << HC_FAST_BLOCK_BITS];
+            if (b->sparse) {
+                store_sparse(b->fast, block, tops[i], is_open(l, x + i, y), slope, way);
+            } else {
+                store_block(b->fast, block, tops[i], slope);
+            }
         }
     }
     row[l->width << HC_FAST_BLOCK_BITS] = row[(l->width - 1) << HC_FAST_BLOCK_BITS];
@@ -355,24 +481,55 @@ static bool is_sparse(const builder *b)
     return stops >= (size_t)l->width * (size_t)l->height;
 }
 
-static void fill(builder *b, hc_fast *fast, int threads, hc_log *log)
+static void see_far(builder *b, int threads, hc_log *log)
 {
-    const int levels = fast->levels;
-    (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
-    fast->slack = 6.0F * fast->blur * steepest_of(b) + CLEARANCE;
-    (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
-    for (int k = 1; k < levels; k++) {
-        (void)run(b, k, top_blocks, b->levels[k].height, threads, log);
-    }
-    for (int k = levels - 1; k > 0 && !fast->steps; k--) {
+    for (int k = b->fast->levels - 1; k > 0 && !b->fast->steps; k--) {
         (void)run(b, k, far_row, b->levels[k].height, threads, log);
     }
+}
+
+static void top_levels(builder *b, int threads, hc_log *log)
+{
+    for (int k = 1; k < b->fast->levels; k++) {
+        (void)run(b, k, top_blocks, b->levels[k].height, threads, log);
+    }
+}
+
+/* Once more, with what a ray may meet that strays; false if there is no memory for it. */
+static bool see_edges(builder *b, int threads, hc_log *log)
+{
+    for (int k = 0; k < b->fast->levels; k++) {
+        level *l = &b->levels[k];
+        l->edges = calloc(SIDES * frame_size(l), sizeof(float));
+        if (l->edges == NULL) {
+            return false;
+        }
+        (void)run(b, k, k == 0 ? edge_cells : edge_blocks, l->height, threads, log);
+        close_ends(b->fast, l);
+    }
+    see_far(b, threads, log);
+    return true;
+}
+
+static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
+{
+    (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
+    const float steepest = steepest_of(b);
+    fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
+    fast->slack          = 6.0F * fast->blur * steepest + fast->least;
+    (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
+    top_levels(b, threads, log);
+    see_far(b, threads, log);
     (void)run(b, 0, block_row, b->levels[0].height, threads, log);
-    b->sparse = is_sparse(b);
-    for (int k = b->sparse ? 0 : 1; k < levels; k++) {
+    b->sparse    = is_sparse(b);
+    fast->sparse = b->sparse;
+    if (b->sparse && !see_edges(b, threads, log)) {
+        return false;
+    }
+    for (int k = b->sparse ? 0 : 1; k < fast->levels; k++) {
         (void)run(b, k, block_row, b->levels[k].height, threads, log);
     }
-    fast->sparse = b->sparse;
+    return true;
 }
 
 static bool take_level(level *l, const hc_fast *fast, int k)
@@ -383,7 +540,7 @@ static bool take_level(level *l, const hc_fast *fast, int k)
     l->height      = (fast->y.cells + side - 1) / side;
     l->blocks      = fast->blocks + fast->start[k];
     l->pitch       = (size_t)l->width + 2 * DIAGONALS + TILE;
-    l->frame       = calloc(l->pitch * (size_t)(l->height + 2 * DIAGONALS + 1), sizeof(float));
+    l->frame       = calloc(frame_size(l), sizeof(float));
     if (k > 0) {
         l->far = malloc((size_t)l->width * (size_t)l->height * 4 * sizeof(float));
     }
@@ -406,11 +563,10 @@ hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_lo
     for (int k = 0; k < fast->levels; k++) {
         taken = take_level(&b.levels[k], fast, k) && taken;
     }
-    if (taken) {
-        fill(&b, fast, threads, log);
-    }
+    taken = taken && fill(&b, fast, threads, log);
     for (int k = 0; k < fast->levels; k++) {
         free(b.levels[k].frame);
+        free(b.levels[k].edges);
         free(b.levels[k].far);
     }
     free(b.steepest);

@@ -53,6 +53,7 @@ struct hc_fast {
     hc_isa       isa;
     float        blur;  /* [cells] by which marching may misplace a ray              */
     float        slack; /* [height] by which the surface may rise on thrice that way */
+    float        least; /* [height] that marching keeps above a surface in any case  */
 
     /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner */
     int    stride_heights;

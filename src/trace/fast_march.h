@@ -120,6 +120,15 @@ static inline hc_v come_in(hc_v x, hc_i block, hc_i shift, const int32_t *ahead)
     return hc_v_abs(hc_v_sub(x, hc_v_from_i(wall)));
 }
 
+/* How far it will have come along the side by which it leaves. */
+static inline hc_v come_aside(const pack *p, const standing *on, hc_v out)
+{
+    const hc_v x    = come_in(on->at.x, on->block_x, on->shift, p->ray.ahead_x);
+    const hc_v y    = come_in(on->at.y, on->block_y, on->shift, p->ray.ahead_y);
+    const hc_v side = hc_v_from_i(hc_i_left(hc_i_set(1), on->shift));
+    return hc_v_sub(hc_v_add(hc_v_add(x, y), out), side);
+}
+
 /* Lanes so near to a wall that they run along it, or cut a corner, that rounding may have put them
  * on the wrong side. It matters on steps alone, which jump there: blocks of patches are raised. */
 static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const standing *on, hc_v out)
@@ -143,13 +152,28 @@ static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const sta
            | (over_y & along_x);
 }
 
+/* Lanes that are so near to a wall which they leave so slowly that they may be behind it for long. */
+static inline unsigned find_slow(const hc_fast *fast, const pack *p, const standing *on)
+{
+    const hc_v     close = hc_v_set(6.0F * fast->blur);
+    const hc_v     slow  = hc_v_set(0.25F);
+    const unsigned from_x =
+        hc_v_greater(close, come_in(on->at.x, on->block_x, on->shift, p->ray.ahead_x));
+    const unsigned from_y =
+        hc_v_greater(close, come_in(on->at.y, on->block_y, on->shift, p->ray.ahead_y));
+    const unsigned slow_x = hc_v_greater(slow, hc_v_abs(hc_v_load(p->ray.dx)));
+    const unsigned slow_y = hc_v_greater(slow, hc_v_abs(hc_v_load(p->ray.dy)));
+    return (from_x & slow_x) | (from_y & slow_y);
+}
+
 /* What of the ground the marching has to see to; always constant, so that each has its own code. */
 typedef enum ground { GROUND_PATCHES, GROUND_SPARSE, GROUND_STEPS } ground;
 
 /* s that a ray goes from where it leaves its block, at most: on to the cone around the block, or,
- * on sparse ground, as far as nothing is higher than the block. `down` is its fall per s. */
+ * on sparse ground, as far as nothing is higher than the block. `down` is its fall per s, `aside` how
+ * far it has come along the side by which it leaves, and no more than the block is wide. */
 static inline hc_v go_beyond(const hc_fast *fast, hc_i code, hc_i shift, hc_v above, hc_v down,
-                             ground kind)
+                             hc_v aside, ground kind)
 {
     if (kind == GROUND_STEPS) {
         return hc_v_set(0.0F);
@@ -165,7 +189,8 @@ static inline hc_v go_beyond(const hc_fast *fast, hc_i code, hc_i shift, hc_v ab
         return cone;
     }
     const hc_i blocks = hc_i_and(code, hc_i_set((1 << HC_FAST_FREE_BITS) - 1));
-    const hc_v way = hc_v_sub(hc_v_from_i(hc_i_left(blocks, shift)), hc_v_set(4.0F * fast->blur));
+    const hc_v gone   = hc_v_add(aside, hc_v_set(8.0F * fast->blur));
+    const hc_v way    = hc_v_sub(hc_v_from_i(hc_i_left(blocks, shift)), gone);
     return hc_v_max(cone, hc_v_min(way, hc_v_about_over(above, hc_v_max(down, least))));
 }
 
@@ -207,7 +232,8 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, const st
     const unsigned unsure = steps ? find_unsure(fast, p, on, out) : 0;
     const unsigned clear  = hc_v_greater(hc_v_min(at->z, leave), top) & active & ~unsure;
     const unsigned sinks  = hc_v_greater(at->z, top) & active & ~unsure & ~clear;
-    const hc_v     beyond = go_beyond(fast, code, shift, hc_v_sub(leave, top), down, kind);
+    const hc_v     aside  = kind == GROUND_SPARSE ? come_aside(p, on, out) : hc_v_set(0.0F);
+    const hc_v     beyond = go_beyond(fast, code, shift, hc_v_sub(leave, top), down, aside, kind);
     const hc_v     fall   = hc_v_max(down, hc_v_set(0x1p-60F));
     const hc_v     part   = hc_v_about_over(hc_v_sub(at->z, top), fall);
     const hc_v     step   = hc_v_pick(sinks, part, hc_v_add(out, beyond));
@@ -292,6 +318,32 @@ typedef struct sight {
     unsigned below; /* are certainly below the surface when they leave, before the end */
 } sight;
 
+static inline hc_v steepest_on(const corners *h)
+{
+    const hc_v along =
+        hc_v_max(hc_v_abs(hc_v_sub(h->h10, h->h00)), hc_v_abs(hc_v_sub(h->h11, h->h01)));
+    const hc_v across =
+        hc_v_max(hc_v_abs(hc_v_sub(h->h01, h->h00)), hc_v_abs(hc_v_sub(h->h11, h->h10)));
+    return hc_v_max(along, across);
+}
+
+/* What looking at cells allows for rounding. On sparse ground most cells are level and some next to
+ * them are not: where a lane is sure to be in its cell, that cell alone counts. */
+static inline hc_v slack_at(const hc_fast *fast, const pack *p, const place *at, hc_v out,
+                            const corners *h, unsigned lanes)
+{
+    const hc_v slack = hc_v_set(fast->slack);
+    if (!fast->sparse) {
+        return slack;
+    }
+    const hc_i     fine = hc_i_set(0);
+    const standing on = { .at = *at, .shift = fine, .block_x = at->cell_x, .block_y = at->cell_y };
+    const unsigned unsure = find_unsure(fast, p, &on, out) | find_slow(fast, p, &on);
+    const hc_v     own =
+        hc_v_about_muladd(steepest_on(h), hc_v_set(6.0F * fast->blur), hc_v_set(fast->least));
+    return hc_v_pick(unsure & lanes, slack, own);
+}
+
 /* Lanes whose gap is above `slack` on all of a way: at its ends, and between them, where it is a
  * parabola that hangs `sag` / 4 below their mean. With both ends less the slack, e and l, its lowest
  * point is above 0 if sqrt(e) + sqrt(l) > sqrt(sag). */
@@ -336,7 +388,7 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const hc_v     twist   = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
     const hc_v     sag     = hc_v_sub(hc_v_set(0.0F), hc_v_mul(twist, hc_v_mul(run_x, run_y)));
     const hc_v     over    = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
-    const hc_v     slack   = hc_v_set(fast->slack);
+    const hc_v     slack   = slack_at(fast, p, &at, out, &h, lanes);
     seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
     seen->below            = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
                   & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;
