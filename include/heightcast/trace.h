@@ -136,6 +136,22 @@ HC_API void hc_tracer_tolerance(const hc_tracer *tracer, double *rise, double *r
  * below. Lives as long as the tracer; NULL for other methods. */
 HC_API const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer);
 
+/* The blocks that fast marches over, likewise: texels of two words for the hc_blocks of
+ * shaders/heightcast.glsl, which has uniforms of these names. */
+typedef struct hc_block_map {
+    int   width, height; /* texels                                                       */
+    int   room[2];       /* along both axes level k begins at room - (room >> 2 * k)     */
+    int   cells[2];
+    int   first[2]; /* where sample 0 is, in cells                                  */
+    int   levels;   /* blocks of level k are 2 * 4^k cells wide                     */
+    bool  sparse;   /* few things on flat ground: #define HC_SPARSE                 */
+    float blur;     /* [cells] by which rounding in float32 may misplace a ray      */
+} hc_block_map;
+
+/* texels [out] 2 * width * height words, or NULL to learn the sizes first. False, and nothing is
+ * written, for other methods. */
+HC_API bool hc_tracer_block_map(const hc_tracer *tracer, hc_block_map *map, uint32_t *texels);
+
 /* ---- hot ------------------------------------------------------------------------------------- */
 
 /* The first hit; false: a miss. */

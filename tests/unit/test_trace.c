@@ -95,6 +95,43 @@ static void refusals_name_the_culprit(void **state)
     hc_tracer_destroy(NULL);
 }
 
+/* The blocks that shaders march over: a top is not below the samples of its block, and level k
+ * stands where the map says. */
+static void blocks_are_lent(void **state)
+{
+    (void)state;
+    enum { WIDE = 37, HIGH = 5, WORDS_MAX = 512 };
+    static float     heights[WIDE * HIGH];
+    uint32_t         texels[WORDS_MAX] = { 0 };
+    hc_trace_options options           = { .method = HC_TRACE_FAST };
+    const hc_field   field             = { .heights = heights, .width = WIDE, .height = HIGH };
+    hc_block_map     map;
+    hc_tracer       *tracer;
+    heights[2 * WIDE + 20] = 0.75F;
+    assert_int_equal(hc_tracer_create(&tracer, &field, &options, NULL), HC_OK);
+    assert_true(hc_tracer_block_map(tracer, &map, NULL));
+    assert_true(map.levels == 2 && map.cells[0] == WIDE + 1 && map.cells[1] == HIGH + 1);
+    assert_true(map.first[0] == 1 && map.first[1] == 1 && map.room[1] == 0);
+    assert_true(map.width * map.height * 2 <= WORDS_MAX);
+    assert_true(hc_tracer_block_map(tracer, &map, texels));
+    for (int level = 0; level < map.levels; level++) {
+        const int bits  = 2 * level + 1;
+        const int left  = map.room[0] - (map.room[0] >> (2 * level));
+        const int texel = (3 >> bits) * map.width + left + (21 >> bits);
+        float     top;
+        memcpy(&top, &texels[2 * texel], sizeof top);
+        assert_true(top >= 0.75F && top < 0.76F);
+        memcpy(&top, &texels[2 * left], sizeof top);
+        assert_true(top >= 0.0F && top < 0.01F);
+        assert_true((texels[2 * left + 1] & 255) > (texels[2 * left + 1] >> 24));
+    }
+    hc_tracer_destroy(tracer);
+    options.method = HC_TRACE_MAXMIP;
+    assert_int_equal(hc_tracer_create(&tracer, &field, &options, NULL), HC_OK);
+    assert_false(hc_tracer_block_map(tracer, &map, NULL));
+    hc_tracer_destroy(tracer);
+}
+
 /* The pyramid that others may walk: the highest corner of each cell first, 1 x 1 last. */
 static void bounds_are_lent(void **state)
 {
@@ -433,6 +470,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(refusals_name_the_culprit),
         cmocka_unit_test(bounds_are_lent),
+        cmocka_unit_test(blocks_are_lent),
         cmocka_unit_test(names_and_needs),
         cmocka_unit_test(a_plane_is_hit_where_it_is),
         cmocka_unit_test(normals_of_a_plane_and_of_a_wall),
