@@ -260,13 +260,13 @@ static hc_result measure_field(void *context, const char *name, const hc_field *
 {
     static const char *const usual[] = { "fast",      "maxmip", "pdm",  "safe",
                                          "cone-loop", "qdm",    "mesh", "lod" };
-    /* fast is the CPU's alone, polygons are GL's. */
+    /* Polygons are GL's. */
     job                 *j      = context;
     const hc_bench_plan *plan   = &j->options->plan;
-    const bool           gl     = j->options->backend == HC_BACKEND_GL;
     const bool           all    = plan->method_count == 0;
-    const char *const   *names  = !all ? plan->methods : gl ? usual + 1 : usual;
-    const int            count  = !all ? plan->method_count : gl ? 7 : 6;
+    const char *const   *names  = all ? usual : plan->methods;
+    const int            own    = j->options->backend == HC_BACKEND_GL ? 8 : 6;
+    const int            count  = all ? own : plan->method_count;
     hc_result            result = HC_OK;
     j->name                     = name;
     j->field                    = *field;

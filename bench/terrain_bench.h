@@ -29,7 +29,7 @@ typedef struct hc_bench_terrain_row {
                               HC_ERROR_CANCELLED, the limit; HC_ERROR_MEMORY; HC_ERROR_LIMIT */
 } hc_bench_terrain_row;
 
-/* plan.methods: without them fast (cpu), maxmip, pdm, safe, cone-loop, qdm, mesh and lod (gl). */
+/* plan.methods: without them fast, maxmip, pdm, safe, cone-loop, qdm, mesh and lod (gl). */
 typedef struct hc_bench_terrain_options {
     hc_bench_plan plan;
     int           width, height; /* of the frame; 0: 480 x 270 */

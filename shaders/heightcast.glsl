@@ -6,13 +6,15 @@
  *     #define HC_METHOD HC_SAFE     the marcher that hc_nearest uses: HC_SAFE (default), HC_MAXMIP,
  *                                   HC_QDM, HC_PARALLAX, HC_LINEAR, HC_RELIEF, HC_OCCLUSION,
  *                                   HC_CONE_FIXED, HC_CONE_LOOP, HC_CONE_EXACT, HC_RELAXED,
- *                                   HC_ROBUST, HC_QUICK, HC_PDM
+ *                                   HC_ROBUST, HC_QUICK, HC_PDM, HC_FAST
  *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00,
  * GLSL
  *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
  *                                   axes that hc_wraps names
  *     #define HC_STEPS              samples are flat tops as wide as they are apart, instead of
- *                                   patches between them: HC_SAFE and HC_MAXMIP (HC_QDM: always)
+ *                                   patches between them: HC_SAFE, HC_MAXMIP and HC_FAST (HC_QDM:
+ *                                   always)
+ *     #define HC_SPARSE             for HC_FAST, where hc_tracer_block_map says so
  *     #define HC_OPEN_SIDES         rays that come in through a side below the surface do not hit
  *                                   it there, but go on, may come up, and then hit from above
  *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R,
@@ -33,8 +35,9 @@
  * Ratios   run over rise in texture space: heightcast bake makes them. What a method needs:
  *          safe: cell ratios of l1 (R) or quad (RGBA, HC_CONE_CHANNELS 4, the default) cones;
  *          relaxed: relaxed ratios; cone-*, robust, quick: those of l2 cones.
- * Safe     safe and maxmip lose no first hit, and make none up, but for rounding: heights that the
- *          ray misses by less than 2^-20, places that it misses by 2^-22 of the field's side.
+ * Safe     safe, maxmip and fast lose no first hit, and make none up, but for rounding: heights
+ *          that the ray misses by less than 2^-20, places that it misses by 2^-22 of the field's
+ *          side, with fast 2^-21.
  * Speed    fewer steps for distant surfaces: set hc_step_limit (hc_steps_for); or fade the depth
  *          out (hc_fade). */
 
@@ -52,6 +55,7 @@
 #define HC_ROBUST 12
 #define HC_QUICK 13
 #define HC_PDM 14
+#define HC_FAST 15
 #ifndef HC_METHOD
 #define HC_METHOD HC_SAFE
 #endif
@@ -82,6 +86,15 @@ uniform sampler2D hc_ratios; /* of samples, or of cells */
 uniform sampler2D hc_bounds;
 uniform int       hc_levels;
 #endif
+#if HC_METHOD == HC_FAST
+/* Blocks of cells: R, the bits of a float, their top; G, four slopes. All levels, level k at
+ * hc_block_room - (hc_block_room >> 2 * k). hc_tracer_block_map fills it, and knows the rest. */
+uniform highp usampler2D hc_blocks;
+uniform ivec2            hc_block_room, hc_block_cells;
+uniform ivec2            hc_block_first; /* where sample 0 is, in their cells */
+uniform int              hc_block_levels;
+uniform float            hc_block_blur; /* rays go so much farther than to walls, in cells */
+#endif
 /* Samples; cells per tile: as many, with grid registration and no wrap one less; place of sample 0
  * in cells: 0.5, with grid registration 0, for qdm and steps 0.5 less, since cells are texels; axes
  * along which the field repeats. */
@@ -91,8 +104,8 @@ uniform bvec2 hc_wraps;
 uniform int   hc_step_count;  /* at most so many steps, in methods that count them */
 uniform int   hc_refinements; /* bisections; -1: one secant, -2: none              */
 
-/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip, qdm and
- * pdm), if you care. */
+/* Reads of textures so far, and moves from cell to cell or node to node (safe, maxmip, qdm, pdm and
+ * fast), if you care. */
 int hc_fetch_count    = 0;
 int hc_crossing_count = 0;
 
@@ -160,11 +173,21 @@ float hc_ratio(ivec2 texel)
 }
 
 #ifdef HC_GATHER
-/* Drivers disagree about what a gather finds over an edge that does not repeat. */
-bool hc_gathers(ivec2 cell)
+/* Drivers disagree about what a gather finds over an edge that does not repeat, so it stays inside,
+ * and corners beyond the edge are those on it. */
+ivec2 hc_gather_at(ivec2 cell)
 {
-    return (hc_wraps.x || (cell.x >= 0 && cell.x < hc_size.x - 1))
-           && (hc_wraps.y || (cell.y >= 0 && cell.y < hc_size.y - 1));
+    ivec2 inside = min(max(cell, ivec2(0)), max(hc_size - 2, ivec2(0)));
+    return ivec2(hc_wraps.x ? cell.x : inside.x, hc_wraps.y ? cell.y : inside.y);
+}
+
+/* hc_corners of a cell, from those that were gathered. */
+vec4 hc_gathered(ivec2 cell, vec4 h)
+{
+    bvec2 last  = greaterThanEqual(cell, hc_size - 1);
+    bvec2 first = bvec2(cell.x < 0 || hc_size.x == 1, cell.y < 0 || hc_size.y == 1);
+    h           = hc_wraps.x ? h : first.x ? h.xxzz : last.x ? h.yyww : h;
+    return hc_wraps.y ? h : first.y ? h.xyxy : last.y ? h.zwzw : h;
 }
 #endif
 
@@ -172,19 +195,18 @@ bool hc_gathers(ivec2 cell)
 vec4 hc_corner_ratios(ivec2 cell)
 {
 #if defined(HC_GATHER) && defined(HC_DUMMER)
-    if (hc_gathers(cell)) {
-        hc_fetch_count += 1;
-        vec4 roots = textureGather(hc_heights, (vec2(cell) + 1.0) / vec2(hc_size), 1).wzxy;
-        return roots * roots;
-    }
+    hc_fetch_count += 1;
+    vec2 at    = (vec2(hc_gather_at(cell)) + 1.0) / vec2(hc_size);
+    vec4 roots = hc_gathered(cell, textureGather(hc_heights, at, 1).wzxy);
+    return roots * roots;
 #elif defined(HC_GATHER)
-    if (hc_gathers(cell)) {
-        hc_fetch_count += 1;
-        return textureGather(hc_ratios, (vec2(cell) + 1.0) / vec2(hc_size)).wzxy;
-    }
-#endif
+    hc_fetch_count += 1;
+    vec2 at = (vec2(hc_gather_at(cell)) + 1.0) / vec2(hc_size);
+    return hc_gathered(cell, textureGather(hc_ratios, at).wzxy);
+#else
     return vec4(hc_ratio(cell), hc_ratio(cell + ivec2(1, 0)), hc_ratio(cell + ivec2(0, 1)),
                 hc_ratio(cell + ivec2(1, 1)));
+#endif
 }
 
 vec2 hc_low(void)
@@ -222,16 +244,16 @@ struct hc_patch {
 vec4 hc_corners(ivec2 cell)
 {
 #ifdef HC_GATHER
-    if (hc_gathers(cell)) {
-        hc_fetch_count += 1;
-        return textureGather(hc_heights, (vec2(cell) + 1.0) / vec2(hc_size)).wzxy;
-    }
-#endif
+    hc_fetch_count += 1;
+    vec2 at = (vec2(hc_gather_at(cell)) + 1.0) / vec2(hc_size);
+    return hc_gathered(cell, textureGather(hc_heights, at).wzxy);
+#else
     ivec2 a = hc_index(cell);
     ivec2 b = hc_index(cell + 1);
     hc_fetch_count += 4;
     return vec4(texelFetch(hc_heights, a, 0).r, texelFetch(hc_heights, ivec2(b.x, a.y), 0).r,
                 texelFetch(hc_heights, ivec2(a.x, b.y), 0).r, texelFetch(hc_heights, b, 0).r);
+#endif
 }
 
 hc_patch hc_patch_of(ivec2 cell)
@@ -373,6 +395,194 @@ hc_found hc_march_safe(hc_path path)
         }
     }
     return hc_found(HC_MISS, 0, steps);
+}
+
+#endif
+
+/* ---- fast: blocks of cells that carry cones, and patches ------------------------------------ */
+
+#if HC_METHOD == HC_FAST
+
+/* A ray in the cells of hc_blocks, in one period of the field. s counts cells gone sideways, and
+ * upright rays count as many as their heights come to in units of HC_UPRIGHT. */
+struct hc_lane {
+    hc_path path;
+    vec2    over;     /* s per cell */
+    ivec2   ahead;    /* 1: up along the axis */
+    vec2    seam;     /* s at which the period ends */
+    int     quadrant; /* bits to shift a block's slopes */
+};
+
+#define HC_UPRIGHT 1048576.0
+#define HC_STANDS 1e18 /* `over` where a ray does not go along an axis */
+
+/* s from a place to walls of blocks of 2^shift cells. */
+vec2 hc_lane_walls(hc_lane lane, vec2 place, ivec2 walls, int shift)
+{
+    return (vec2(walls << shift) - place) * lane.over;
+}
+
+hc_lane hc_lane_along(vec3 along)
+{
+    hc_lane lane;
+    vec2    stands  = vec2(along.x < 0.0 ? -HC_STANDS : HC_STANDS,
+                           along.y < 0.0 ? -HC_STANDS : HC_STANDS);
+    lane.path.along = along;
+    lane.path.from  = 0.0;
+    lane.path.cell  = ivec2(0);
+    lane.ahead      = ivec2(greaterThanEqual(along.xy, vec2(0.0)));
+    lane.quadrant   = 24 - 8 * lane.ahead.x - 16 * lane.ahead.y;
+    lane.over       = vec2(abs(along.x) * HC_STANDS > 1.0 ? 1.0 / along.x : stands.x,
+                           abs(along.y) * HC_STANDS > 1.0 ? 1.0 / along.y : stands.y);
+    return lane;
+}
+
+/* In the period that a place is in; on a seam it is the one that the ray goes into. */
+void hc_lane_begin(inout hc_lane lane, vec3 place, float rest)
+{
+    vec2 size  = vec2(hc_block_cells);
+    vec2 turns = place.xy / size;
+    vec2 first = size * vec2(lane.ahead.x > 0 ? floor(turns.x) : ceil(turns.x) - 1.0,
+                             lane.ahead.y > 0 ? floor(turns.y) : ceil(turns.y) - 1.0);
+    vec2 in_   = clamp(place.xy - first, vec2(0.0), size);
+    vec2 seam  = hc_lane_walls(lane, in_, lane.ahead * hc_block_cells, 0);
+    lane.path.place = vec3(hc_wraps.x ? in_.x : place.x, hc_wraps.y ? in_.y : place.y, place.z);
+    lane.seam       = vec2(hc_wraps.x ? seam.x : HC_MISS, hc_wraps.y ? seam.y : HC_MISS);
+    lane.path.end   = min(rest, min(lane.seam.x, lane.seam.y));
+}
+
+/* Where the period ends; on a seam that it comes to, to the bit. */
+vec3 hc_lane_end(hc_lane lane)
+{
+    vec3 place = hc_at(lane.path, lane.path.end);
+    vec2 seam  = vec2(lane.ahead * hc_block_cells);
+    return vec3(lane.seam.x <= lane.path.end ? seam.x : place.x,
+                lane.seam.y <= lane.path.end ? seam.y : place.y, place.z);
+}
+
+/* Behind a corner that a ray cuts steps may stand that it does not see; patches cannot. */
+bool hc_lane_cuts(vec2 walls)
+{
+    return HC_TOPS && abs(walls.x - walls.y) < 4.0 * hc_block_blur;
+}
+
+/* s from where a ray leaves its block, `over` its top and falling `down` per s, to where what is
+ * beyond the block may come up to it. */
+float hc_lane_beyond(uint code, int shift, float over, float down)
+{
+#ifdef HC_STEPS
+    return 0.0; /* cones are for patches */
+#elif defined(HC_SPARSE)
+    float slope = uintBitsToFloat(((code >> 4) << 23) + (116u << 23));
+    float way   = float((code & 15u) << shift) - 4.0 * hc_block_blur;
+    return max(over / max(slope + down, 1.0 / HC_STANDS),
+               min(way, over / max(down, 1.0 / HC_STANDS)));
+#else
+    float slope = uintBitsToFloat((code << 20) + (97u << 23));
+    return over / max(slope + down, 1.0 / HC_STANDS);
+#endif
+}
+
+/* The level after a step over a block. */
+int hc_lane_level(int level, int shift, float walked)
+{
+    int next = min(level + 1, hc_block_levels - 1);
+#ifdef HC_SPARSE
+    return clamp((floatBitsToInt(walked) >> 24) - 65, 0, next); /* half the exponent */
+#else
+    return walked > float(2 << shift) ? next : level;
+#endif
+}
+
+/* Over blocks, to a cell that the ray may hit. False: it comes to the end. */
+bool hc_lane_near(hc_lane lane, inout float s, inout int level, inout int steps)
+{
+    bool  near = false;
+    float fall = min(lane.path.along.z, -1.0 / HC_STANDS);
+    while (s < lane.path.end && !near) {
+        vec3  at     = hc_at(lane.path, s);
+        int   shift  = 2 * level + 1;
+        ivec2 which  = ivec2(at.xy) >> shift;
+        ivec2 texel  = which + hc_block_room - (hc_block_room >> (2 * level));
+        uvec2 block  = texelFetch(hc_blocks, texel, 0).rg;
+        vec2  walls  = hc_lane_walls(lane, at.xy, which + lane.ahead, shift);
+        float leave  = max(min(walls.x, walls.y), 0.0) + hc_block_blur;
+        float top    = uintBitsToFloat(block.r);
+        float over   = at.z + leave * lane.path.along.z - top;
+        bool  above  = at.z > top;
+        bool  sinks  = above && !(over > 0.0);
+        bool  clear  = above && over > 0.0 && !hc_lane_cuts(walls);
+        uint  code   = (block.g >> lane.quadrant) & 255u;
+        float walked = leave + hc_lane_beyond(code, shift, over, -lane.path.along.z);
+        s += clear ? walked : sinks ? (top - at.z) / fall : 0.0;
+        near  = !clear && level == 0;
+        level = clear ? hc_lane_level(level, shift, walked) : max(level - 1, 0);
+        hc_fetch_count += 1;
+        hc_crossing_count += clear ? 1 : 0;
+        steps++;
+    }
+    return near && s < lane.path.end;
+}
+
+float hc_lane_contact(hc_lane lane, ivec2 cell, float enter, float leave)
+{
+    vec3  gap   = hc_gap_of(hc_patch_of(cell - hc_block_first), lane.path, cell, enter);
+    float reach = min(leave, lane.path.end) - enter;
+    if (gap.x <= 0.0) { /* it came down on what rounding has passed by; tops have no slope */
+        float back = gap.y < 0.0 && !HC_TOPS ? -gap.x / gap.y : 0.0;
+        return max(enter + max(back, -8.0 * hc_block_blur), 0.0);
+    }
+    return enter + hc_contact(gap, reach);
+}
+
+/* The cell at s, as a whole. HC_MISS: no contact, and s is behind the cell. */
+float hc_lane_look(hc_lane lane, inout float s, out bool face)
+{
+    vec2  place  = hc_at(lane.path, s).xy;
+    ivec2 cell   = clamp(ivec2(place), ivec2(0), hc_block_cells - 1);
+    vec2  before = hc_lane_walls(lane, place, cell + 1 - lane.ahead, 0);
+    vec2  behind = max(hc_lane_walls(lane, place, cell + lane.ahead, 0), vec2(0.0)) + s;
+    float enter  = clamp(s + max(before.x, before.y), 0.0, s);
+    float leave  = min(behind.x, behind.y);
+    float meets  = hc_lane_contact(lane, cell, enter, leave);
+    if (meets >= HC_MISS && leave < lane.path.end && hc_lane_cuts(behind)) {
+        ivec2 side = 2 * lane.ahead - 1;
+        enter      = leave;
+        leave      = max(behind.x, behind.y);
+        cell += behind.x < behind.y ? ivec2(side.x, 0) : ivec2(0, side.y);
+        meets = hc_lane_contact(lane, cell, enter, leave);
+    }
+    face = HC_TOPS && meets <= enter && enter > 0.0;
+    s    = leave + hc_block_blur;
+    hc_crossing_count += 1;
+    return meets;
+}
+
+/* Over blocks that the ray stays above, and as far as the cones around them carry it, else to finer
+ * blocks, and to the cells. docs/algorithms.md, section 20, has the proof. */
+hc_found hc_march_fast(hc_path path)
+{
+    float run    = max(max(abs(path.along.x) + abs(path.along.y), abs(path.along.z) / HC_UPRIGHT),
+                       1e-30);
+    vec3  place  = hc_at(path, path.from) + vec3(hc_block_first, 0.0);
+    float rest   = (path.end - path.from) * run;
+    float gone   = 0.0; /* s in other periods */
+    float meets  = HC_MISS;
+    int   level  = min(1, hc_block_levels - 1);
+    int   steps  = 0;
+    bool  face   = false;
+    hc_lane lane = hc_lane_along(path.along / run);
+    for (int most = 0; most < 1024 && meets >= HC_MISS && gone < rest; most++) {
+        hc_lane_begin(lane, place, rest - gone);
+        float s = hc_block_blur;
+        while (meets >= HC_MISS && hc_lane_near(lane, s, level, steps)) {
+            meets = hc_lane_look(lane, s, face);
+            steps++;
+        }
+        gone += meets < HC_MISS ? meets : lane.path.end;
+        place = hc_lane_end(lane);
+    }
+    return hc_found(meets < HC_MISS ? path.from + gone / run : HC_MISS, face ? HC_SIDE : 0, steps);
 }
 
 #endif
@@ -737,6 +947,8 @@ hc_found hc_march_cones(hc_path path)
 #define hc_march hc_march_maxmip
 #elif HC_METHOD == HC_PDM
 #define hc_march hc_march_pdm
+#elif HC_METHOD == HC_FAST
+#define hc_march hc_march_fast
 #elif HC_METHOD == HC_PARALLAX
 #define hc_march hc_march_parallax
 #elif HC_METHOD == HC_LINEAR
@@ -889,42 +1101,65 @@ vec2 hc_patch_slopes(vec2 uv)
     return (patch_.slope + f.yx * patch_.twist) * hc_steps;
 }
 
-/* Central difference at a sample, one-sided at an unwrapped border. */
-vec2 hc_central_slope(ivec2 texel)
-{
-    bvec2 back  = bvec2(hc_wraps.x || texel.x > 0, hc_wraps.y || texel.y > 0);
-    bvec2 ahead = bvec2(hc_wraps.x || texel.x < hc_size.x - 1,
-                        hc_wraps.y || texel.y < hc_size.y - 1);
-    ivec2 b     = ivec2(back);
-    ivec2 a     = ivec2(ahead);
-    vec2  low   = vec2(hc_sample(texel - ivec2(b.x, 0)), hc_sample(texel - ivec2(0, b.y)));
-    vec2  high  = vec2(hc_sample(texel + ivec2(a.x, 0)), hc_sample(texel + ivec2(0, a.y)));
-    return (high - low) / max(vec2(a + b), vec2(1.0));
-}
+#ifdef HC_DUMMER
 
 /* The slopes that the 2006 paper stores with each texel: heights per step of a texel. */
 vec2 hc_stored_slope(ivec2 texel)
 {
-#ifdef HC_DUMMER
     hc_fetch_count += 1;
     vec2 code = texelFetch(hc_heights, hc_index(texel), 0).ba * 255.0 - 127.0;
     return code * vec2(1.0, -1.0) / 255.0; /* v is upwards in the map */
-#else
-    return hc_central_slope(hc_index(texel));
-#endif
 }
+
+/* Of a cell's corners along u, and along v. */
+void hc_corner_slopes(ivec2 cell, out vec4 along_u, out vec4 along_v)
+{
+    vec2 a  = hc_stored_slope(cell);
+    vec2 b  = hc_stored_slope(cell + ivec2(1, 0));
+    vec2 c  = hc_stored_slope(cell + ivec2(0, 1));
+    vec2 d  = hc_stored_slope(cell + 1);
+    along_u = vec4(a.x, b.x, c.x, d.x);
+    along_v = vec4(a.y, b.y, c.y, d.y);
+}
+
+#else
+
+/* How many samples lie between those whose difference is the slope: one at an unwrapped border. */
+vec2 hc_slope_width(ivec2 texel)
+{
+    vec2 back  = vec2(hc_wraps.x || texel.x > 0, hc_wraps.y || texel.y > 0);
+    vec2 ahead = vec2(hc_wraps.x || texel.x < hc_size.x - 1, hc_wraps.y || texel.y < hc_size.y - 1);
+    return max(back + ahead, vec2(1.0));
+}
+
+/* Central differences at a cell's corners, along u and along v. */
+void hc_corner_slopes(ivec2 cell, out vec4 along_u, out vec4 along_v)
+{
+    vec4 a  = hc_corners(cell - 1);
+    vec4 b  = hc_corners(cell + ivec2(1, -1));
+    vec4 c  = hc_corners(cell + ivec2(-1, 1));
+    vec4 d  = hc_corners(cell + 1);
+    vec2 l  = hc_slope_width(cell);
+    vec2 h  = hc_slope_width(cell + 1);
+    along_u = vec4(b.z - a.z, b.w - a.w, d.x - c.x, d.y - c.y) / vec4(l.x, h.x, l.x, h.x);
+    along_v = vec4(c.y - a.y, d.x - b.x, c.w - a.w, d.z - b.z) / vec4(l.y, l.y, h.y, h.y);
+}
+
+#endif
 
 /* Slopes of the samples, filtered: smooth shading, heights per tile. */
 vec2 hc_smooth_slopes(vec2 uv)
 {
+    vec4  along_u, along_v;
     vec2  half_ = HC_TOPS ? vec2(0.5) : vec2(0.0); /* its samples sit amid its cells */
     vec2  place = uv * hc_steps - hc_zero - half_;
+    vec2  on    = clamp(place, vec2(0.0), vec2(hc_size - 1)); /* beyond the border it is as there */
+    place       = vec2(hc_wraps.x ? place.x : on.x, hc_wraps.y ? place.y : on.y);
     ivec2 cell  = ivec2(floor(place));
     vec2  f     = place - vec2(cell);
-    ivec2 below = cell + ivec2(0, 1);
-    vec2  upper = mix(hc_stored_slope(cell), hc_stored_slope(cell + ivec2(1, 0)), f.x);
-    vec2  lower = mix(hc_stored_slope(below), hc_stored_slope(below + ivec2(1, 0)), f.x);
-    return mix(upper, lower, f.y) * hc_steps;
+    vec4  share = vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(vec2(1.0 - f.y), vec2(f.y));
+    hc_corner_slopes(cell, along_u, along_v);
+    return vec2(dot(share, along_u), dot(share, along_v)) * hc_steps;
 }
 
 /* The relief's normal in the world: that of the body, bent by the slopes. Names as in

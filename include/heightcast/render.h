@@ -132,8 +132,8 @@ typedef enum hc_view {
 HC_API const char *hc_view_name(hc_view view); /* as above; NULL beyond the last. Static */
 
 /* cpu  what all others are compared with; every method
- * gl   OpenGL 4.3 core through EGL, without a window, by the shaders in shaders/; every method but
- *      fast, in float32. On the GPU, or where there is none in Mesa's software renderer */
+ * gl   OpenGL 4.3 core through EGL, without a window, by the shaders in shaders/; every method, in
+ *      float32. On the GPU, or where there is none in Mesa's software renderer */
 typedef enum hc_backend { HC_BACKEND_CPU = 0, HC_BACKEND_GL } hc_backend;
 
 typedef struct hc_render_options {

@@ -81,7 +81,7 @@ static void compare(const hc_terrain_scene *scene, hc_view view)
 static void safely(void **state)
 {
     (void)state;
-    const hc_trace_method methods[] = { HC_TRACE_SAFE, HC_TRACE_MAXMIP, HC_TRACE_CONE_LOOP };
+    const hc_trace_method methods[] = { HC_TRACE_SAFE, HC_TRACE_FAST, HC_TRACE_CONE_LOOP };
     for (int i = 0; i < 3; i++) {
         const hc_terrain_scene scene = scene_of(methods[i], HC_DETAIL_SAFE);
         compare(&scene, HC_VIEW_SHADED);

@@ -222,7 +222,8 @@ class Bench(Case):
             self.skipTest("no OpenGL here")
         report = self.terrain("--sizes", 64, "--backend", "gl")
         rows = {row["method"]: row for row in report["rows"]}
-        self.assertEqual(set(rows), {"maxmip", "pdm", "safe", "cone-loop", "qdm", "mesh", "lod"})
+        self.assertEqual(set(rows), {"fast", "maxmip", "pdm", "safe", "cone-loop", "qdm", "mesh",
+                                     "lod"})
         for method in "mesh", "lod":
             self.assertEqual(rows[method]["bytes"], 4 * 64 * 64)
             self.assertEqual(rows[method]["fly"]["mean_crossings"], 0)

@@ -53,7 +53,7 @@ for language in core es; do
         check $language-$stage.vert vert
     done
     for method in SAFE MAXMIP QDM PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT \
-        RELAXED ROBUST QUICK PDM; do
+        RELAXED ROBUST QUICK PDM FAST; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag
@@ -80,7 +80,7 @@ for language in core es; do
     fragment gather-dummer.frag core "HC_METHOD HC_CONE_LOOP" HC_GATHER HC_DUMMER
     check gather-dummer.frag frag
     scene=terrain
-    for method in SAFE MAXMIP QDM; do
+    for method in SAFE MAXMIP QDM FAST; do
         fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS HC_OPEN_SIDES
         check $language-steps-$method.frag frag
         between=detail.glsl
@@ -90,6 +90,8 @@ for language in core es; do
         between=
     done
     scene=relief
+    fragment $language-sparse.frag $language "HC_METHOD HC_FAST" HC_SPARSE
+    check $language-sparse.frag frag
     fragment $language-diamond.frag $language "HC_METHOD HC_SAFE" "HC_CONE_CHANNELS 1"
     check $language-diamond.frag frag
     for method in PARALLAX LINEAR RELIEF OCCLUSION CONE_FIXED CONE_LOOP CONE_EXACT QUICK; do

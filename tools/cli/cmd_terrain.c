@@ -194,9 +194,6 @@ int hc_cli_run_terrain(hc_cli *cli)
     hc_cli_landscape landscape;
     hc_cli_route     route;
     int              code = check_meaning(cli);
-    if (cli->settings.backend == HC_CLI_GL && !hc_cli_given(&cli->settings, "method")) {
-        cli->settings.rays.method = HC_TRACE_MAXMIP; /* fast is the CPU's alone */
-    }
     code = code == HC_CLI_DONE ? hc_cli_check_frames(cli) : code;
     if (code != HC_CLI_DONE) {
         return code;

@@ -430,8 +430,8 @@ const hc_cli_option hc_cli_options[] = {
       .help     = "Measure only these methods, at every size (default: all, the slow ones at small "
                   "sizes); trace: these casters (default: all that are built in); steps: of fast, "
                   "safe and maxmip (default: all); terrain: those of render terrain, and "
-                  "mesh and lod, its polygons (default: maxmip,pdm,safe,cone-loop,qdm; cpu: also "
-                  "fast; gl: also mesh,lod)." },
+                  "mesh and lod, its polygons (default: fast,maxmip,pdm,safe,cone-loop,qdm; gl: "
+                  "also mesh,lod)." },
     { .name     = "repeat",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,
@@ -451,9 +451,10 @@ const hc_cli_option hc_cli_options[] = {
       .high     = 86400,
       .metavar  = "SECONDS",
       .allowed  = "numbers above 0, up to 86400",
-      .help = "bake, --backend gl: stop a run that would take longer, and say how long it would "
-              "(default 15); terrain: of a method at one size: stop what takes longer to get ready, "
-              "and draw no further frames (default 60)." },
+      .help =
+          "bake, --backend gl: stop a run that would take longer, and say how long it would "
+          "(default 15); terrain: of a method at one size: stop what takes longer to get ready, "
+          "and draw no further frames (default 60)." },
     { .name     = "json",
       .commands = HC_CLI_BENCH,
       .section  = HC_CLI_SECTION_WORK,

@@ -22,7 +22,7 @@ static hc_result build(unsigned *program, const canvas *c, const hc_stage *stage
                        hc_trace_method method, hc_log *log)
 {
     char head[128];
-    hc_gl_head(head, sizeof head, method, stage->scene.relief.trace.cones);
+    hc_gl_head(head, sizeof head, method, stage->scene.relief.trace.cones, stage->tracer);
     const hc_result result = hc_gl_build_relief(program, c->context, head, log);
     if (result == HC_OK) {
         glUseProgram(*program);
@@ -78,13 +78,8 @@ static void add(void *user, hc_pixel *pixel, const hc_sample *sample, const doub
 
 hc_result hc_gl_draw(hc_pixel *pixels, double *seconds, const hc_stage *stage, hc_log *log)
 {
-    canvas   c     = { .bands = { .program = 0 } };
-    hc_stage drawn = *stage; /* for add, which is handed no const */
-    if (hc_gl_method(stage->scene.relief.trace.method) == 0) {
-        return hc_fail(log, HC_ERROR_UNSUPPORTED,
-                       "relief.trace.method is %s, which is the CPU's alone",
-                       hc_trace_method_name(stage->scene.relief.trace.method));
-    }
+    canvas    c      = { .bands = { .program = 0 } };
+    hc_stage  drawn  = *stage; /* for add, which is handed no const */
     hc_result result = make(&c, stage, log);
     if (result == HC_OK) {
         result = hc_bands_draw(pixels, seconds, &c.bands, &stage->eye, &stage->options.progress,

@@ -21,6 +21,7 @@ enum {
     RATIOS,
     BOUNDS,
     EXACT_BOUNDS,
+    BLOCKS,
     IMAGE,
     BODIES,
     SUNVIEW,
@@ -42,17 +43,6 @@ struct hc_terrain_gl {
 };
 
 /* ---- making -------------------------------------------------------------------------------- */
-
-static hc_result check_method(const hc_terrain *terrain, hc_log *log)
-{
-    const hc_trace_options *trace = &terrain->scene.trace;
-    if (hc_gl_method(trace->method) == 0) {
-        return hc_fail(log, HC_ERROR_UNSUPPORTED,
-                       "scene.trace.method is %s, which is the CPU's alone",
-                       hc_trace_method_name(trace->method));
-    }
-    return HC_OK;
-}
 
 static hc_result load_bounds(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)
 {
@@ -78,6 +68,9 @@ static hc_result load(unsigned textures[TEXTURES], const hc_terrain *terrain, hc
     }
     if (result == HC_OK) {
         result = load_bounds(&textures[EXACT_BOUNDS], EXACT_BOUNDS, terrain->exact, log);
+    }
+    if (result == HC_OK) {
+        result = hc_upload_blocks(&textures[BLOCKS], BLOCKS, terrain->tracer, log);
     }
     if (result == HC_OK && terrain->sunview.side > 0 && !hc_terrain_gl_sees_sun(terrain)) {
         result =
@@ -166,6 +159,7 @@ static void set_scene(unsigned program, const hc_terrain *terrain, bool exact)
     hc_upload_int(program, "hc_heights", HEIGHTS);
     hc_upload_int(program, "hc_ratios", RATIOS);
     hc_upload_int(program, "hc_bounds", exact ? EXACT_BOUNDS : BOUNDS);
+    hc_upload_block_shape(program, BLOCKS, terrain->tracer);
     set_sunview(program, &terrain->sunview);
     hc_upload_int(program, "u_image", IMAGE);
     hc_upload_int(program, "u_bodies", BODIES);
@@ -211,7 +205,8 @@ static hc_result build(unsigned *program, const hc_terrain *terrain, const char 
 {
     const hc_trace_options *trace = &terrain->scene.trace;
     char                    head[256];
-    hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones);
+    hc_gl_head(head, sizeof head, exact ? HC_TRACE_MAXMIP : trace->method, trace->cones,
+               terrain->tracer);
     const char *part = strcmp(before, "bodies.vert") == 0                      ? "BODIES"
                        : strcmp(before, "ground.vert") == 0                    ? "POLYGONS"
                        : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
@@ -335,16 +330,12 @@ static hc_result draw_sunview(hc_terrain_gl *gl, const hc_terrain *terrain, hc_l
 
 hc_result hc_terrain_gl_make(hc_terrain_gl **gl, const hc_terrain *terrain, hc_log *log)
 {
-    hc_result result = check_method(terrain, log);
-    if (result != HC_OK) {
-        return result;
-    }
     *gl = calloc(1, sizeof **gl);
     if (*gl == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for OpenGL");
     }
-    result = hc_gl_open(&(*gl)->context, log);
-    result = result != HC_OK ? result : load((*gl)->textures, terrain, log);
+    hc_result result = hc_gl_open(&(*gl)->context, log);
+    result           = result != HC_OK ? result : load((*gl)->textures, terrain, log);
     result = result != HC_OK ? result : build(&(*gl)->program, terrain, "screen.vert", false, log);
     if (result == HC_OK && terrain->exact != NULL) {
         result = build(&(*gl)->exact, terrain, "screen.vert", true, log);

@@ -42,6 +42,9 @@ hc_result hc_gl_load(unsigned textures[HC_GL_TEXTURES], const hc_stage *stage, h
     if (result == HC_OK) {
         result = load_bounds(&textures[HC_GL_EXACT_BOUNDS], HC_GL_EXACT_BOUNDS, stage->exact, log);
     }
+    if (result == HC_OK) {
+        result = hc_upload_blocks(&textures[HC_GL_BLOCKS], HC_GL_BLOCKS, stage->tracer, log);
+    }
     if (result == HC_OK && m->albedo != NULL) {
         result = hc_upload_image(&textures[HC_GL_ALBEDO], HC_GL_ALBEDO, m->albedo, m->albedo_width,
                                  m->albedo_height, 3, "albedo", log);
@@ -93,6 +96,7 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
     hc_upload_int(program, "hc_heights", HC_GL_HEIGHTS);
     hc_upload_int(program, "hc_ratios", HC_GL_RATIOS);
     hc_upload_int(program, "hc_bounds", exact ? HC_GL_EXACT_BOUNDS : HC_GL_BOUNDS);
+    hc_upload_block_shape(program, HC_GL_BLOCKS, stage->tracer);
     hc_upload_field(program, &stage->scene.relief.field, trace, method);
     set_shape(program, stage);
     set_light(program, stage);

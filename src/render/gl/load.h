@@ -11,6 +11,7 @@ enum {
     HC_GL_RATIOS,
     HC_GL_BOUNDS,
     HC_GL_EXACT_BOUNDS,
+    HC_GL_BLOCKS,
     HC_GL_ALBEDO,
     HC_GL_TEXTURES
 };

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 
 /* ---- textures ------------------------------------------------------------------------------ */
 
@@ -77,6 +78,28 @@ hc_result hc_upload_pyramid(unsigned *texture, int unit, const hc_pyramid *pyram
     return hc_gl_check("pyramid", log);
 }
 
+hc_result hc_upload_blocks(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log)
+{
+    hc_block_map map;
+    if (tracer == NULL || !hc_tracer_block_map(tracer, &map, NULL)) {
+        return HC_OK;
+    }
+    const hc_result result = hc_gl_check_size(map.width, map.height, "blocks", log);
+    if (result != HC_OK) {
+        return result;
+    }
+    uint32_t *texels = calloc((size_t)map.width * (size_t)map.height, 2 * sizeof *texels);
+    if (texels == NULL) {
+        return hc_fail(log, HC_ERROR_MEMORY, "no memory for the blocks of fast");
+    }
+    (void)hc_tracer_block_map(tracer, &map, texels);
+    begin_texture(texture, unit, 1);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RG32UI, map.width, map.height, 0, GL_RG_INTEGER,
+                 GL_UNSIGNED_INT, texels);
+    free(texels);
+    return hc_gl_check("blocks", log);
+}
+
 /* ---- uniforms ------------------------------------------------------------------------------ */
 
 int hc_gl_method(hc_trace_method method)
@@ -86,7 +109,7 @@ int hc_gl_method(hc_trace_method method)
         [HC_TRACE_PARALLAX] = 4,    [HC_TRACE_LINEAR] = 5,     [HC_TRACE_RELIEF] = 6,
         [HC_TRACE_OCCLUSION] = 7,   [HC_TRACE_CONE_FIXED] = 8, [HC_TRACE_CONE_LOOP] = 9,
         [HC_TRACE_CONE_EXACT] = 10, [HC_TRACE_RELAXED] = 11,   [HC_TRACE_ROBUST] = 12,
-        [HC_TRACE_QUICK] = 13,      [HC_TRACE_PDM] = 14
+        [HC_TRACE_QUICK] = 13,      [HC_TRACE_PDM] = 14,       [HC_TRACE_FAST] = 15
     };
     return numbers[method];
 }
@@ -129,6 +152,25 @@ void hc_upload_field(unsigned program, const hc_field *field, const hc_trace_opt
     hc_upload_int(program, "hc_refinements", trace->refinements);
 }
 
+static void set_whole_pair(unsigned program, const char *name, const int pair[2])
+{
+    glUniform2i(glGetUniformLocation(program, name), pair[0], pair[1]);
+}
+
+void hc_upload_block_shape(unsigned program, int unit, const hc_tracer *tracer)
+{
+    hc_block_map map;
+    if (tracer == NULL || !hc_tracer_block_map(tracer, &map, NULL)) {
+        return;
+    }
+    hc_upload_int(program, "hc_blocks", unit);
+    set_whole_pair(program, "hc_block_room", map.room);
+    set_whole_pair(program, "hc_block_cells", map.cells);
+    set_whole_pair(program, "hc_block_first", map.first);
+    hc_upload_int(program, "hc_block_levels", map.levels);
+    hc_upload_float(program, "hc_block_blur", (double)map.blur);
+}
+
 void hc_upload_eye(unsigned program, const hc_eye *eye)
 {
     hc_upload_vector(program, "u_eye", eye->place);
@@ -141,12 +183,20 @@ void hc_upload_eye(unsigned program, const hc_eye *eye)
 
 /* ---- programs ------------------------------------------------------------------------------ */
 
-void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones)
+static bool is_sparse(const hc_tracer *tracer)
 {
-    (void)snprintf(
-        head, size,
-        "#version 430 core\n#define HC_METHOD %d\n#define HC_GATHER\n#define HC_CONE_CHANNELS %d\n",
-        hc_gl_method(method), cones == HC_CONES_L1 ? 1 : 4);
+    hc_block_map map;
+    return tracer != NULL && hc_tracer_block_map(tracer, &map, NULL) && map.sparse;
+}
+
+void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones,
+                const hc_tracer *tracer)
+{
+    (void)snprintf(head, size,
+                   "#version 430 core\n#define HC_METHOD %d\n#define HC_GATHER\n"
+                   "#define HC_CONE_CHANNELS %d\n%s",
+                   hc_gl_method(method), cones == HC_CONES_L1 ? 1 : 4,
+                   is_sparse(tracer) ? "#define HC_SPARSE\n" : "");
 }
 
 hc_gl_recipe hc_gl_recipe_of(const char *head, const char *before, const char *name)

@@ -4,8 +4,11 @@
 
 #include "../eye.h"
 
+#include "base/fail.h"
 #include "gl/map.h"
 #include "gl/program.h"
+
+#include <heightcast/trace.h>
 
 /* ---- textures: *texture is a new name, bound to `unit` ---- */
 
@@ -19,6 +22,8 @@ void hc_upload_wrap(hc_wrap wrap);
 /* Heights and ratios that are textures already. */
 void      hc_upload_baked(int heights_unit, int ratios_unit, const struct hc_gpu_map *map);
 hc_result hc_upload_pyramid(unsigned *texture, int unit, const hc_pyramid *pyramid, hc_log *log);
+/* Of fast; of other methods, and of NULL, there are none. */
+hc_result hc_upload_blocks(unsigned *texture, int unit, const hc_tracer *tracer, hc_log *log);
 
 /* ---- uniforms of the program in use; those that it does not have are passed over ---- */
 
@@ -30,16 +35,19 @@ void hc_upload_vector(unsigned program, const char *name, const double v[3]);
 /* What heightcast.glsl wants to know, but for its textures. */
 void hc_upload_field(unsigned program, const hc_field *field, const hc_trace_options *trace,
                      hc_trace_method method);
+/* And about the texture of blocks, if the tracer has some. */
+void hc_upload_block_shape(unsigned program, int unit, const hc_tracer *tracer);
 /* u_eye, u_forward, u_right, u_down, u_orthographic, u_picture. */
 void hc_upload_eye(unsigned program, const hc_eye *eye);
 
 /* ---- programs ---- */
 
-/* Number of the tracer's method in heightcast.glsl; 0: it has none. */
+/* Number of the tracer's method in heightcast.glsl. */
 int hc_gl_method(hc_trace_method method);
 
-/* What stands before both shaders. */
-void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones);
+/* What stands before both shaders. tracer: the method's, or NULL where its map is on the GPU. */
+void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones,
+                const hc_tracer *tracer);
 
 /* The vertex shader `before`, and the fragment shader `name` behind heightcast.glsl, with `head`
  * before both. */
