@@ -35,15 +35,21 @@ static void place_levels(hc_block_tree *tree)
     }
 }
 
-static void find_range(hc_block_tree *tree, const float *heights)
+typedef struct range {
+    float low, high;
+} range;
+
+static range wider(range a, range b)
 {
-    const size_t count = (size_t)tree->width * (size_t)tree->height;
-    float        low   = heights[0];
-    float        high  = heights[0];
+    return (range){ a.low < b.low ? a.low : b.low, a.high > b.high ? a.high : b.high };
+}
+
+static range range_of(const float *heights, size_t count)
+{
+    range all = { heights[0], heights[0] };
     float lows[ENTRIES], highs[ENTRIES]; /* sixteen chains, so that the loop becomes vectors */
     for (int i = 0; i < ENTRIES; i++) {
-        lows[i]  = low;
-        highs[i] = high;
+        lows[i] = highs[i] = heights[0];
     }
     for (size_t first = 0; first + ENTRIES <= count; first += ENTRIES) {
         for (int i = 0; i < ENTRIES; i++) {
@@ -53,16 +59,12 @@ static void find_range(hc_block_tree *tree, const float *heights)
         }
     }
     for (size_t i = count - count % ENTRIES; i < count; i++) {
-        low  = heights[i] < low ? heights[i] : low;
-        high = heights[i] > high ? heights[i] : high;
+        all = wider(all, (range){ heights[i], heights[i] });
     }
     for (int i = 0; i < ENTRIES; i++) {
-        low  = lows[i] < low ? lows[i] : low;
-        high = highs[i] > high ? highs[i] : high;
+        all = wider(all, (range){ lows[i], highs[i] });
     }
-    const bool small = high - low < SMALL_RANGE;
-    tree->base       = small ? low : 0.0F;
-    tree->range      = small ? high - low : 1.0F;
+    return all;
 }
 
 static void copy_block(const hc_block_tree *tree, const float *heights, int block_x, int block_y)
@@ -124,19 +126,54 @@ typedef struct build {
     hc_block_tree *tree;
     const float   *heights;
     int            level;
+    range          seen[HC_THREADS_MAX]; /* by each worker */
 } build;
 
-static void build_row(void *context, int row, int worker)
+static void copy_row(void *context, int row, int worker)
+{
+    build       *b     = context;
+    const int    rows  = b->tree->height - row * SIDE < SIDE ? b->tree->height - row * SIDE : SIDE;
+    const size_t width = (size_t)b->tree->width;
+    const float *from  = b->heights + (size_t)row * SIDE * width;
+    b->seen[worker]    = wider(b->seen[worker], range_of(from, (size_t)rows * width));
+    for (int x = 0; x < b->tree->levels[0].columns; x++) {
+        copy_block(b->tree, b->heights, x, row);
+    }
+}
+
+static void gather_row(void *context, int row, int worker)
 {
     (void)worker;
     const build *b = context;
     for (int x = 0; x < b->tree->levels[b->level].columns; x++) {
-        if (b->level == 0) {
-            copy_block(b->tree, b->heights, x, row);
-        } else {
-            gather_node(b->tree, b->level, x, row);
-        }
+        gather_node(b->tree, b->level, x, row);
     }
+}
+
+static void set_range(hc_block_tree *tree, range all)
+{
+    const bool small = all.high - all.low < SMALL_RANGE;
+    tree->base       = small ? all.low : 0.0F;
+    tree->range      = small ? all.high - all.low : 1.0F;
+}
+
+static void build_levels(hc_block_tree *tree, const float *heights, int threads, hc_log *log)
+{
+    build b   = { .tree = tree, .heights = heights };
+    range all = { heights[0], heights[0] };
+    for (int i = 0; i < threads; i++) {
+        b.seen[i] = all;
+    }
+    (void)hc_parallel_for(tree->levels[0].rows, threads, copy_row, &b, (hc_progress){ 0 }, log);
+    for (int i = 0; i < threads; i++) {
+        all = wider(all, b.seen[i]);
+    }
+    set_range(tree, all);
+    for (b.level = 1; b.level < tree->count; b.level++) {
+        (void)hc_parallel_for(tree->levels[b.level].rows, threads, gather_row, &b,
+                              (hc_progress){ 0 }, log);
+    }
+    find_top(tree);
 }
 
 hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, int height,
@@ -151,13 +188,7 @@ hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, in
                        height, floats * sizeof(float));
     }
     place_levels(tree);
-    find_range(tree, heights);
-    build b = { .tree = tree, .heights = heights };
-    for (; b.level < tree->count; b.level++) {
-        (void)hc_parallel_for(tree->levels[b.level].rows, threads, build_row, &b,
-                              (hc_progress){ 0 }, log);
-    }
-    find_top(tree);
+    build_levels(tree, heights, threads, log);
     return HC_OK;
 }
 

@@ -15,29 +15,36 @@ static bool in_quadrant(const hc_exact_pass *pass, int dx, int dy)
     return dx * pass->sign_u >= 0 && dy * pass->sign_v >= 0;
 }
 
-static float weight(const hc_exact_pass *pass, int dx, int dy)
+/* Weights by distance; 0 for the sample itself. */
+typedef struct weights {
+    float at[HC_NEAR_REACH + 4][HC_NEAR_REACH + 4]; /* [rows][columns] */
+} weights;
+
+static void find_weights(weights *w, const hc_exact_pass *pass)
 {
-    if ((dx == 0 && dy == 0) || !in_quadrant(pass, dx, dy)) {
-        return 0.0F;
+    for (int y = 0; y < HC_NEAR_REACH + 4; y++) {
+        for (int x = 0; x < HC_NEAR_REACH + 4; x++) {
+            w->at[y][x] = pass->diamond ? hc_weight_l1(x, y, pass->step_u, pass->step_v)
+                                        : hc_weight_l2(x, y, pass->step_u, pass->step_v);
+        }
     }
-    return pass->diamond ? hc_weight_l1(abs(dx), abs(dy), pass->step_u, pass->step_v)
-                         : hc_weight_l2(abs(dx), abs(dy), pass->step_u, pass->step_v);
+    w->at[0][0] = 0.0F;
 }
 
-static void fill_sample_weights(hc_near_table *table, const hc_exact_pass *pass)
+static void fill_table(hc_near_table *table, const hc_exact_pass *pass)
 {
-    const int right = pass->sign_u < 0 ? -1 : 1;
-    const int down  = pass->sign_v < 0 ? -1 : 1;
+    weights w;
+    find_weights(&w, pass);
     for (int dy = 0; dy <= HC_AROUND_REACH; dy++) {
-        for (int dx = 0; dx <= HC_AROUND_REACH; dx++) {
-            table->around[dy][dx] = weight(pass, right * dx, down * dy);
-        }
+        memcpy(table->around[dy], w.at[dy], sizeof table->around[dy]);
     }
     for (int column = 0; column < HC_NEAR_SIDE; column++) {
         for (int group = 0; group < HC_NEAR_GROUPS; group++) {
             for (int lane = 0; lane < 4; lane++) {
+                const int dx = column - HC_NEAR_REACH - lane;
+                const int dy = HC_NEAR_REACH + 3 - group;
                 table->sample[column][group][lane] =
-                    weight(pass, column - HC_NEAR_REACH - lane, HC_NEAR_REACH + 3 - group);
+                    in_quadrant(pass, dx, dy) ? w.at[abs(dy)][abs(dx)] : 0.0F;
             }
         }
     }
@@ -58,7 +65,7 @@ static void set_passes(hc_exact_plan *plan, const hc_cone_job *job, const hc_con
                                                         .sign_v  = search->sign_v,
                                                         .wrap_u  = job->wrap_u,
                                                         .wrap_v  = job->wrap_v };
-        fill_sample_weights(&plan->tables[i], &plan->passes[i]);
+        fill_table(&plan->tables[i], &plan->passes[i]);
     }
 }
 
@@ -159,7 +166,9 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
     for (int r = 0; r < HC_TILE_SIDE && tile_y * HC_TILE_SIDE + r < plan->tree.height; r++) {
         const size_t y  = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
         float       *to = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
-        if (channels == 1) {
+        if (channels == 1 && columns == HC_TILE_SIDE) { /* a size that compilers know */
+            memcpy(to, plain + r * HC_TILE_SIDE, HC_TILE_SIDE * sizeof *to);
+        } else if (channels == 1) {
             memcpy(to, plain + r * HC_TILE_SIDE, (size_t)columns * sizeof *to);
         } else {
             write_channels(to, plan, found, r * HC_TILE_SIDE, columns);

@@ -26,7 +26,7 @@ typedef struct hc_near_table {
      * of four for falling r - l, and hc_near_weights finds the first of the sixteen. 0 for the
      * sample itself and outside the quadrant. */
     _Alignas(64) float sample[HC_NEAR_SIDE][HC_NEAR_GROUPS][4];
-    float around[HC_AROUND_REACH + 1][HC_AROUND_REACH + 1]; /* [rows][columns], into the quadrant */
+    float around[HC_AROUND_REACH + 1][HC_AROUND_REACH + 1]; /* [rows][columns] */
 } hc_near_table;
 
 static inline const float *hc_near_weights(const hc_near_table *table, int column, int row)
