@@ -41,8 +41,8 @@ typedef enum hc_ground {
 } hc_ground;
 HC_API const char *hc_ground_name(hc_ground ground); /* as above; NULL beyond the last. Static */
 
-/* Triangles instead of rays, as what rays are measured against: gl only, without the block's walls
- * and without details; shadows are rays' as ever.
+/* Triangles instead of rays, as what rays are measured against: gl only, without the block's walls,
+ * flat tops and details; shadows are rays' as ever.
  * none   rays
  * full   two triangles for each square of four samples
  * lod    blocks of 32 x 32 squares that the eye sees, each as coarse as it can be without moving a

@@ -316,6 +316,9 @@ static void polygons_that_cannot_be_are_refused(void **state)
     scene.polygons                  = HC_POLYGONS_LOD;
     assert_int_equal(hc_terrain_create(&terrain, &scene, NULL, &log), HC_ERROR_UNSUPPORTED);
     assert_non_null(strstr(log.text, "scene.polygons is lod; only gl"));
+    scene.trace.method = HC_TRACE_QDM;
+    assert_int_equal(hc_terrain_create(&terrain, &scene, &by_gl, &log), HC_ERROR_UNSUPPORTED);
+    assert_non_null(strstr(log.text, "flat tops"));
     scene.polygons = (hc_polygons)3;
     assert_int_equal(hc_terrain_create(&terrain, &scene, &by_gl, &log), HC_ERROR_ARGUMENT);
     assert_null(hc_polygons_name(scene.polygons));

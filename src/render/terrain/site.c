@@ -81,10 +81,13 @@ static hc_result check_polygons(const hc_terrain *terrain, hc_log *log)
 {
     const hc_polygons polygons = terrain->scene.polygons;
     CHECK(check_whole("scene.polygons", (int)polygons, 0, HC_POLYGONS_LOD, log));
-    return polygons == HC_POLYGONS_NONE || terrain->options.backend == HC_BACKEND_GL
-               ? HC_OK
-               : hc_fail(log, HC_ERROR_UNSUPPORTED, "scene.polygons is %s; only gl draws them",
-                         hc_polygons_name(polygons));
+    const char *why = polygons == HC_POLYGONS_NONE                ? NULL
+                      : terrain->options.backend != HC_BACKEND_GL ? "only gl draws them"
+                      : hc_terrain_has_tops(terrain) ? "they join samples, and flat tops are apart"
+                                                     : NULL;
+    return why == NULL ? HC_OK
+                       : hc_fail(log, HC_ERROR_UNSUPPORTED, "scene.polygons is %s; %s",
+                                 hc_polygons_name(polygons), why);
 }
 
 static hc_result check_options(const hc_render_options *options, hc_log *log)
