@@ -467,14 +467,14 @@ bool hc_lane_cuts(vec2 walls)
 }
 
 /* s from where a ray leaves its block, `over` its top and falling `down` per s, to where what is
- * beyond the block may come up to it. */
-float hc_lane_beyond(uint code, int shift, float over, float down)
+ * beyond the block may come up to it. It has come `aside` along the side by which it leaves. */
+float hc_lane_beyond(uint code, int shift, float over, float down, float aside)
 {
 #ifdef HC_STEPS
     return 0.0; /* cones are for patches */
 #elif defined(HC_SPARSE)
     float slope = uintBitsToFloat(((code >> 4) << 23) + (116u << 23));
-    float way   = float((code & 15u) << shift) - 4.0 * hc_block_blur;
+    float way   = float((code & 15u) << shift) - aside - 8.0 * hc_block_blur;
     return max(over / max(slope + down, 1.0 / HC_STANDS),
                min(way, over / max(down, 1.0 / HC_STANDS)));
 #else
@@ -513,7 +513,9 @@ bool hc_lane_near(hc_lane lane, inout float s, inout int level, inout int steps)
         bool  sinks  = above && !(over > 0.0);
         bool  clear  = above && over > 0.0 && !hc_lane_cuts(walls);
         uint  code   = (block.g >> lane.quadrant) & 255u;
-        float walked = leave + hc_lane_beyond(code, shift, over, -lane.path.along.z);
+        vec2  come   = abs(at.xy - vec2((which + 1 - lane.ahead) << shift));
+        float aside  = come.x + come.y + leave - float(1 << shift);
+        float walked = leave + hc_lane_beyond(code, shift, over, -lane.path.along.z, aside);
         s += clear ? walked : sinks ? (top - at.z) / fall : 0.0;
         near  = !clear && level == 0;
         level = clear ? hc_lane_level(level, shift, walked) : max(level - 1, 0);
