@@ -11,6 +11,9 @@ enum { SIDE = 4, ENTRIES = SIDE * SIDE };
 /* Fields that use less of 0..1 than this are searched relative to their own lowest height. */
 static const float SMALL_RANGE = 1.0F / 64.0F;
 
+/* Fewer nodes than this are gathered sooner than threads are started. */
+enum { FEW_NODES = 4096 };
+
 static size_t lay_out(hc_block_tree *tree)
 {
     size_t floats  = 0;
@@ -170,8 +173,10 @@ static void build_levels(hc_block_tree *tree, const float *heights, int threads,
     }
     set_range(tree, all);
     for (b.level = 1; b.level < tree->count; b.level++) {
-        (void)hc_parallel_for(tree->levels[b.level].rows, threads, gather_row, &b,
-                              (hc_progress){ 0 }, log);
+        const hc_tree_level *level = &tree->levels[b.level];
+        const bool           few   = level->columns < FEW_NODES / level->rows;
+        (void)hc_parallel_for(level->rows, few ? 1 : threads, gather_row, &b, (hc_progress){ 0 },
+                              log);
     }
     find_top(tree);
 }
