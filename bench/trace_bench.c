@@ -119,65 +119,107 @@ static size_t count_hits(const bench *b, const stage *s, int set, size_t *cast)
     return hits;
 }
 
-static void measure(const bench *b, const stage *s, int mode, int set, int threads)
+/* A row in the making. */
+typedef struct line {
+    const stage *stage;
+    int          mode, threads;
+    double       fastest;
+    size_t       cast, hits;
+} line;
+
+enum { LINES = PEERS * HC_PEER_MODES * 2 };
+
+static int list_lines(line *lines, const bench *b, const stage *stages, int count)
+{
+    const int asked   = b->options->plan.threads;
+    const int wanted  = asked > 0 ? asked : DEFAULT_THREADS;
+    const int threads = wanted < THREADS_MAX ? wanted : THREADS_MAX;
+    int       made    = 0;
+    for (int i = 0; i < count; i++) {
+        for (int mode = 0; mode < HC_PEER_MODES && stages[i].peer->modes[mode] != NULL; mode++) {
+            for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
+                lines[made++] = (line){ &stages[i], mode, n, INFINITY, 0, 0 };
+            }
+        }
+    }
+    return made;
+}
+
+static void report(const bench *b, const line *l, int set)
 {
     const hc_bench_trace_options *options = b->options;
-    const int                     repeat  = hc_bench_repeat(&options->plan);
-    double                        fastest = INFINITY;
-    for (int i = 0; i < repeat; i++) {
-        fastest = fmin(fastest, run_set(b, s, mode, set, threads));
-    }
-    size_t                   cast;
-    const size_t             hits = count_hits(b, s, set, &cast);
-    const hc_bench_trace_row row  = { .field           = b->name,
-                                      .side            = b->field.width,
-                                      .rays            = hc_bench_rays_name(set),
-                                      .caster          = s->peer->name,
-                                      .mode            = s->peer->modes[mode],
-                                      .threads         = threads,
-                                      .count           = cast,
-                                      .runs            = repeat,
-                                      .seconds         = fastest,
-                                      .rays_per_second = (double)cast / fastest,
-                                      .hits            = (double)hits / (double)cast,
-                                      .build_seconds   = s->build_seconds,
-                                      .bytes           = s->peer->bytes(s->scene) };
+    const stage                  *s       = l->stage;
+    const hc_bench_trace_row      row     = { .field           = b->name,
+                                              .side            = b->field.width,
+                                              .rays            = hc_bench_rays_name(set),
+                                              .caster          = s->peer->name,
+                                              .mode            = s->peer->modes[l->mode],
+                                              .threads         = l->threads,
+                                              .count           = l->cast,
+                                              .runs            = hc_bench_repeat(&options->plan),
+                                              .seconds         = l->fastest,
+                                              .rays_per_second = (double)l->cast / l->fastest,
+                                              .hits            = (double)l->hits / (double)l->cast,
+                                              .build_seconds   = s->build_seconds,
+                                              .bytes           = s->peer->bytes(s->scene) };
     options->row_done(options->user, &row);
 }
 
-static hc_result measure_all(const bench *b, const stage *s)
+/* Casters take turns: a machine that is slower for a while is so for all. */
+static hc_result measure_set(const bench *b, line *lines, int count, int set)
 {
-    const int asked   = b->options->plan.threads;
-    const int threads = asked > 0 ? asked : DEFAULT_THREADS;
-    for (int set = 0; set < HC_RAYS_TIMED; set++) {
-        for (int mode = 0; mode < HC_PEER_MODES && s->peer->modes[mode] != NULL; mode++) {
-            for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
-                if (hc_bench_stopped(&b->options->plan)) {
-                    return HC_ERROR_CANCELLED;
-                }
-                measure(b, s, mode, set, n < THREADS_MAX ? n : THREADS_MAX);
+    for (int i = 0; i < count; i++) {
+        lines[i].fastest = INFINITY;
+    }
+    for (int run = 0; run < hc_bench_repeat(&b->options->plan); run++) {
+        for (line *l = lines; l < lines + count; l++) {
+            if (hc_bench_stopped(&b->options->plan)) {
+                return HC_ERROR_CANCELLED;
             }
+            l->fastest = fmin(l->fastest, run_set(b, l->stage, l->mode, set, l->threads));
+            l->hits    = count_hits(b, l->stage, set, &l->cast);
         }
+    }
+    for (int i = 0; i < count; i++) {
+        report(b, &lines[i], set);
     }
     return HC_OK;
 }
 
+static hc_result measure_all(const bench *b, const stage *stages, int count)
+{
+    line      lines[LINES];
+    const int made   = list_lines(lines, b, stages, count);
+    hc_result result = HC_OK;
+    for (int set = 0; set < HC_RAYS_TIMED && result == HC_OK; set++) {
+        result = measure_set(b, lines, made, set);
+    }
+    return result;
+}
+
+static bool build(stage *s, const bench *b, const hc_bench_peer *peer)
+{
+    const double start = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    s->peer            = peer;
+    s->scene           = peer->create(&b->field, b->options->plan.isa);
+    s->build_seconds   = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start;
+    return s->scene != NULL;
+}
+
 static hc_result run_peers(const bench *b)
 {
-    hc_result result = HC_OK;
-    for (int i = 0; i < PEERS && result == HC_OK; i++) {
-        if (!hc_bench_chosen(&b->options->plan, peers[i]->name)) {
-            continue;
+    stage stages[PEERS];
+    int   count = 0;
+    bool  built = true;
+    for (int i = 0; i < PEERS && built; i++) {
+        if (hc_bench_chosen(&b->options->plan, peers[i]->name)) {
+            built = build(&stages[count], b, peers[i]);
+            count += built ? 1 : 0;
         }
-        stage        s     = { .peer = peers[i] };
-        const double start = read_clock(CLOCK_PROCESS_CPUTIME_ID);
-        s.scene            = s.peer->create(&b->field, b->options->plan.isa);
-        s.build_seconds    = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start;
-        if (s.scene == NULL) {
-            return HC_ERROR_MEMORY;
-        }
-        result = measure_all(b, &s);
-        s.peer->destroy(s.scene);
+    }
+    const hc_result result = built ? measure_all(b, stages, count) : HC_ERROR_MEMORY;
+    for (int i = 0; i < count; i++) {
+        stages[i].peer->destroy(stages[i].scene);
     }
     return result;
 }

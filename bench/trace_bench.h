@@ -1,4 +1,4 @@
-/* How fast rays are cast, ours and others' on the same rays, one after another. */
+/* How fast rays are cast, ours and others' on the same rays, run by run in turn. */
 #ifndef HC_BENCH_TRACE_BENCH_H
 #define HC_BENCH_TRACE_BENCH_H
 
