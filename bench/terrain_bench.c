@@ -136,7 +136,8 @@ static hc_result draw_frame(sums *all, job *j, const hc_terrain *terrain, hc_tou
     return result;
 }
 
-/* Frames of all tours in turn, so that a busy moment of the machine does not fall on one of them. */
+/* Frames of all tours in turn, so that a busy moment of the machine does not fall on one of
+ * them. */
 static hc_result draw_tours(sums all[TOURS], job *j, const hc_terrain *terrain, bool once)
 {
     memset(all, 0, TOURS * sizeof *all);

@@ -34,8 +34,9 @@ typedef struct hc_bench_terrain_options {
     hc_bench_plan plan;
     int           width, height; /* of the frame; 0: 480 x 270 */
     hc_backend    backend;
-    double        limit; /* after it a method gets ready no longer, and but for the first ones of
-                            each tour no frame is drawn; again for those that are judged  [s]  0: 60 */
+    double        limit; /* [s] after it a method gets ready no longer, and but for the first ones
+                            of each tour no frame is drawn; again for those that are judged;
+                            0: 60 */
     void (*row_done)(void *user, const hc_bench_terrain_row *row);
     void *user;
 } hc_bench_terrain_options;

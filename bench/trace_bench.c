@@ -238,11 +238,10 @@ static bool take(bench *b)
 static hc_result run_field(void *job, const char *name, const hc_field *field)
 {
     const hc_bench_trace_options *options = job;
-    bench                         b       = { .options = options,
-                                              .name    = name,
-                                              .field   = *field,
-                                              .count = options->rays > 0 ? options->rays : HC_RAYS_PICTURE };
-    hc_result                     result  = HC_ERROR_MEMORY;
+    const size_t                  asked   = options->rays;
+    const size_t                  count   = asked > 0 ? asked : HC_RAYS_PICTURE;
+    bench     b      = { .options = options, .name = name, .field = *field, .count = count };
+    hc_result result = HC_ERROR_MEMORY;
     if (take(&b)) {
         for (int set = 0; set < HC_RAYS_TIMED; set++) {
             hc_bench_fill_rays(b.rays[set], b.count, (hc_bench_rays)set, &b.field);

@@ -10,7 +10,8 @@ trap 'rm -f "$table"' EXIT
 echo "\$ heightcast bench bake --backend gl --sizes $sizes" >"$table"
 build/heightcast bench bake --backend gl --sizes "$sizes" | tee -a "$table"
 
-# "NVIDIA GeForce RTX 4090/PCIe/SSE2" -> nvidia_geforce_rtx_4090; what is in brackets says which driver
+# "NVIDIA GeForce RTX 4090/PCIe/SSE2" -> nvidia_geforce_rtx_4090; what is in brackets says which
+# driver
 name=$(sed -n 's/^gpu  *//p' "$table" | head -n 1 | sed 's/ *[(/].*//' |
     tr '[:upper:]' '[:lower:]' | tr -c 'a-z0-9\n' '_')
 cp "$table" "bench/results/bake_gl_$name.txt"

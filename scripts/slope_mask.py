@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """A mask for heightcast render terrain --mask, from the slopes of a landscape:
-   red where it is level and low, green where it is level and high, blue where it is steep, all three
-   with soft borders; alpha is 0.
+   red where it is level and low, green where it is level and high, blue where it is steep, all
+   three with soft borders; alpha is 0.
 
     scripts/slope_mask.py FIELD.npy MASK.png --spacing 74.5,92.5 --rise 840
 
@@ -20,7 +20,8 @@ def read_npy(path):
     length = struct.unpack("<H", data[8:10])[0]
     head = ast.literal_eval(data[10:10 + length].decode("latin1"))
     height, width = head["shape"]
-    heights = struct.unpack(f"<{width * height}f", data[10 + length:10 + length + 4 * width * height])
+    first = 10 + length
+    heights = struct.unpack(f"<{width * height}f", data[first:first + 4 * width * height])
     return width, height, heights
 
 

@@ -1,5 +1,6 @@
-/* Baking on the GPU, by compute shaders of OpenGL 4.3 (shaders/bake*.comp). In libheightcast-render,
- * which has all that needs OpenGL; without a GPU Mesa's software renderer does it.
+/* Baking on the GPU, by compute shaders of OpenGL 4.3 (shaders/bake*.comp). In
+ * libheightcast-render, which has all that needs OpenGL; without a GPU Mesa's software renderer
+ * does it.
  *
  *     hc_gpu *gpu;
  *     if (hc_gpu_create(&gpu, &log) == HC_OK) {
@@ -46,9 +47,9 @@ HC_API const char *hc_gpu_timer(const hc_gpu *gpu); /* static */
  * Every method but ring, which is the CPU's alone: HC_ERROR_UNSUPPORTED. Work is given to
  * the driver in pieces that take about a twentieth of a second, and reported after each; in one
  * piece no search takes more than 1,024 steps, and no more than 2^20 are run.
- * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); on the GPU 14 bytes per sample,
- * and 20 for each of the first 2^20. Errors besides: HC_ERROR_LIMIT for fields larger than the driver's textures;
- * HC_ERROR_MEMORY, on the GPU too; HC_ERROR_IO if the context is lost. */
+ * Memory: 4 bytes per sample and search (l2, l1 1, quad 4, aniso 5); on the GPU 14 bytes per
+ * sample, and 20 for each of the first 2^20. Errors besides: HC_ERROR_LIMIT for fields larger than
+ * the driver's textures; HC_ERROR_MEMORY, on the GPU too; HC_ERROR_IO if the context is lost. */
 HC_API hc_result hc_gpu_bake_cone_map(hc_gpu *gpu, float *ratios, const hc_field *field,
                                       const hc_cone_options *options, hc_log *log);
 

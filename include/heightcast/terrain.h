@@ -61,9 +61,10 @@ typedef struct hc_object {
     float          colour[3]; /* linear light. All zero: 0.45 0.16 0.10       */
 } hc_object;
 
-/* A small height map that repeats over the ground and is cut into it: where it is 1 the ground stays
- * as it is, where it is 0 it lies `depth` lower, each times the mask's share there. Bilinear between
- * its texels, as the ground is between its samples. Tiles begin in the field's north-west corner. */
+/* A small height map that repeats over the ground and is cut into it: where it is 1 the ground
+ * stays as it is, where it is 0 it lies `depth` lower, each times the mask's share there. Bilinear
+ * between its texels, as the ground is between its samples. Tiles begin in the field's north-west
+ * corner. */
 typedef struct hc_detail {
     const float *heights; /* width * height, row-major, row 0 north  [0 .. 1]                    */
     const float *colour;  /* likewise * 3, linear light, or NULL: it leaves the ground's         */
@@ -111,12 +112,13 @@ typedef struct hc_terrain_scene {
     hc_polygons polygons;
 
     /* detail_count of them [0 .. HC_DETAILS_MAX], read by hc_terrain_create only; what they point
-     * to is borrowed until the terrain is destroyed. Not of polygons, which are too coarse for them. */
+     * to is borrowed until the terrain is destroyed. Not of polygons, which are too coarse for
+     * them. */
     const hc_detail *details;
     int              detail_count;
-    /* mask_width * mask_height * 4: how much of each detail there is at each sample, of 255; as many
-     * texels as the field has samples, bilinear between them, or the same on all of a flat top;
-     * borrowed. NULL: the same share of each everywhere, all of them together 1. */
+    /* mask_width * mask_height * 4: how much of each detail there is at each sample, of 255; as
+     * many texels as the field has samples, bilinear between them, or the same on all of a flat
+     * top; borrowed. NULL: the same share of each everywhere, all of them together 1. */
     const uint8_t   *mask;
     int              mask_width, mask_height;
     hc_detail_method detail_method;
@@ -147,9 +149,9 @@ typedef struct hc_terrain hc_terrain;
  * options  view: shaded, height, normal, depth, crossings or missed; top does not count. NULL or
  *          zero: shaded, by the CPU
  *
- * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range and a mask of another size than
- * the field; HC_ERROR_UNSUPPORTED for polygons and details where they cannot be. gl: also those of
- * hc_render. */
+ * Errors: hc_tracer_create's; HC_ERROR_ARGUMENT for numbers out of range and a mask of another size
+ * than the field; HC_ERROR_UNSUPPORTED for polygons and details where they cannot be. gl: also
+ * those of hc_render. */
 HC_API hc_result hc_terrain_create(hc_terrain **terrain, const hc_terrain_scene *scene,
                                    const hc_render_options *options, hc_log *log);
 HC_API void      hc_terrain_destroy(hc_terrain *terrain);
@@ -170,7 +172,8 @@ HC_API void      hc_terrain_destroy(hc_terrain *terrain);
 HC_API hc_result hc_terrain_draw(hc_picture *picture, const hc_terrain *terrain,
                                  const hc_camera *camera, hc_log *log);
 
-/* z of the surface, without details, at (x, y); beyond the field's sides that of the nearest place on them. */
+/* z of the surface, without details, at (x, y); beyond the field's sides that of the nearest place
+ * on them. */
 HC_API double hc_terrain_ground(const hc_terrain *terrain, double x, double y);
 
 /* The field's place: spacings, scale and offset as they were resolved. */

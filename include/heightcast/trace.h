@@ -131,8 +131,8 @@ HC_API size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *opt
  * t rounded to float. docs/algorithms.md derives both. */
 HC_API void hc_tracer_tolerance(const hc_tracer *tracer, double *rise, double *reach);
 
-/* The pyramid that maxmip, pdm and qdm walk, for those who walk it elsewhere, such as in a shader: the
- * highest corner of each cell (qdm and steps: the samples), and above it the maximum of what is
+/* The pyramid that maxmip, pdm and qdm walk, for those who walk it elsewhere, such as in a shader:
+ * the highest corner of each cell (qdm and steps: the samples), and above it the maximum of what is
  * below. Lives as long as the tracer; NULL for other methods. */
 HC_API const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer);
 

@@ -12,8 +12,8 @@ INLINE hc_v take_near(hc_v S, hc_v height, float sample, const float *weights)
     return hc_v_max(hc_v_mul(rise, hc_v_load(weights)), S);
 }
 
-/* Four maxima in turn begin with S and end in S, which lets T rise: one chain would take longer than
- * all the rest. */
+/* Four maxima in turn begin with S and end in S, which lets T rise: one chain would take longer
+ * than all the rest. */
 INLINE void begin_maxima(const tile *t, int part, hc_v S[4])
 {
     for (int i = 0; i < 4; i++) {

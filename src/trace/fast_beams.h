@@ -28,8 +28,8 @@ typedef struct beams {
     int32_t level[HC_LANES];
 } beams;
 
-/* Rays farther apart than so many cells, or than this per cell gone, are no beam; nor are fewer than
- * so many. */
+/* Rays farther apart than so many cells, or than this per cell gone, are no beam; nor are fewer
+ * than so many. */
 enum { BEAM_RAYS = 8 };
 static const float BEAM_WIDTH = 32.0F;
 static const float BEAM_ANGLE = 0.125F;

@@ -349,8 +349,8 @@ static inline void see_to(job *j, pack *p)
     }
 }
 
-/* Not those at the end: how often a ray is marched must not depend on when it is seen to. All blocks
- * are asked for before any is waited for. */
+/* Not those at the end: how often a ray is marched must not depend on when it is seen to. All
+ * blocks are asked for before any is waited for. */
 static inline void march_all(job *j, ground kind)
 {
     standing on[PACKS];

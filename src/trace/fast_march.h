@@ -152,7 +152,8 @@ static inline unsigned find_unsure(const hc_fast *fast, const pack *p, const sta
            | (over_y & along_x);
 }
 
-/* Lanes that are so near to a wall which they leave so slowly that they may be behind it for long. */
+/* Lanes that are so near to a wall which they leave so slowly that they may be behind it for
+ * long. */
 static inline unsigned find_slow(const hc_fast *fast, const pack *p, const standing *on)
 {
     const hc_v     close = hc_v_set(6.0F * fast->blur);
@@ -170,8 +171,8 @@ static inline unsigned find_slow(const hc_fast *fast, const pack *p, const stand
 typedef enum ground { GROUND_PATCHES, GROUND_SPARSE, GROUND_STEPS } ground;
 
 /* s that a ray goes from where it leaves its block, at most: on to the cone around the block, or,
- * on sparse ground, as far as nothing is higher than the block. `down` is its fall per s, `aside` how
- * far it has come along the side by which it leaves, and no more than the block is wide. */
+ * on sparse ground, as far as nothing is higher than the block. `down` is its fall per s, `aside`
+ * how far it has come along the side by which it leaves, and no more than the block is wide. */
 static inline hc_v go_beyond(const hc_fast *fast, hc_i code, hc_i shift, hc_v above, hc_v down,
                              hc_v aside, ground kind)
 {
@@ -345,8 +346,8 @@ static inline hc_v slack_at(const hc_fast *fast, const pack *p, const place *at,
 }
 
 /* Lanes whose gap is above `slack` on all of a way: at its ends, and between them, where it is a
- * parabola that hangs `sag` / 4 below their mean. With both ends less the slack, e and l, its lowest
- * point is above 0 if sqrt(e) + sqrt(l) > sqrt(sag). */
+ * parabola that hangs `sag` / 4 below their mean. With both ends less the slack, e and l, its
+ * lowest point is above 0 if sqrt(e) + sqrt(l) > sqrt(sag). */
 static inline unsigned stay_above(hc_v enter, hc_v leave, hc_v sag, hc_v slack)
 {
     const hc_v     none    = hc_v_set(0.0F);

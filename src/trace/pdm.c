@@ -1,8 +1,8 @@
-/* The walk of the 2009 paper as it is described there: all that it remembers is a place on the ray and
- * a level. The texel is the one at that place, looked up a little ahead so that it is the next one
- * once its border is reached; a patch's root counts if it lies in the patch. So rays slip past what
- * lies within that little of a corner, and between two patches where rounding puts the root of each
- * in the other: maxmip.c, the same walk, counts walls instead.
+/* The walk of the 2009 paper as it is described there: all that it remembers is a place on the ray
+ * and a level. The texel is the one at that place, looked up a little ahead so that it is the next
+ * one once its border is reached; a patch's root counts if it lies in the patch. So rays slip past
+ * what lies within that little of a corner, and between two patches where rounding puts the root of
+ * each in the other: maxmip.c, the same walk, counts walls instead.
  * Source: GPU terrain ray casting, WSCG 2009, sections 4.1, 5.1 and 5.4, figure 12. */
 #include "nodes.h"
 #include "surface.h"

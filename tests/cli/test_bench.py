@@ -64,9 +64,9 @@ class Bench(Case):
     def test_opengl_stops_what_takes_too_long(self):
         if not self.has_opengl():
             self.skipTest("no OpenGL here")
-        done = self.run_program("bench", "bake", "--sizes", "64", "--repeat", "1", "--backend", "gl",
-                                "--methods", "brute,pyramid", "--limit", "0.000001", "--json",
-                                "gl.json", "--csv", "gl.csv")
+        done = self.run_program("bench", "bake", "--sizes", "64", "--repeat", "1",
+                                "--backend", "gl", "--methods", "brute,pyramid",
+                                "--limit", "0.000001", "--json", "gl.json", "--csv", "gl.csv")
         self.assertEqual(done.returncode, 0)
         brute, pyramid = json.loads(self.path("gl.json").read_text())["rows"]
         self.assertEqual((brute["runs"], brute["seconds"], pyramid["runs"]), (0, None, 1))

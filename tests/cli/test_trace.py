@@ -13,7 +13,8 @@ from program import (BAD_FILE, ELEVATIONS, INPUT_OUTPUT, MEMORY, PROGRAM, USAGE,
 INF = float("inf")
 DOWN = [0.5, 0.5, 1, 0, 0, 0, -1, INF]
 METHODS = ["fast", "safe", "maxmip", "qdm", "parallax", "linear", "relief", "occlusion",
-           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "pdm", "reference"]
+           "cone-fixed", "cone-loop", "cone-exact", "relaxed", "robust", "quick", "pdm",
+           "reference"]
 
 
 class Rays(Case):

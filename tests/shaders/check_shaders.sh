@@ -81,7 +81,8 @@ for language in core es; do
     check gather-dummer.frag frag
     scene=terrain
     for method in SAFE MAXMIP QDM FAST; do
-        fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS HC_OPEN_SIDES
+        fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS \
+            HC_OPEN_SIDES
         check $language-steps-$method.frag frag
         between=detail.glsl
         fragment $language-detail-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS \

@@ -247,8 +247,8 @@ static float uniform(uint32_t *seed)
     return (float)(*seed >> 8) / 16777216.0F;
 }
 
-/* Down and up, from above, inside and outside: the hits and the crossings of maxmip, but for a few in
- * ten thousand. */
+/* Down and up, from above, inside and outside: the hits and the crossings of maxmip, but for a few
+ * in ten thousand. */
 static void pdm_walks_as_maxmip_does(void **state)
 {
     enum { NOISE = 64, RAYS = 20000 };

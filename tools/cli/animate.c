@@ -60,9 +60,12 @@ static hc_result bake_by_gpu(hc_cli_animation *a, hc_cli *cli, const hc_field *f
 {
     const hc_gpu_map_options options = { .cone  = options_of(a, cli),
                                          .cells = a->needs == HC_NEEDS_CELL_RATIOS };
-    const hc_result          result =
-        a->map == NULL ? hc_gpu_map_create(&a->map, a->gpu, field, &options, &cli->log)
-                                : hc_gpu_map_update(a->map, field->heights, changed, NULL, &cli->log);
+    hc_result                result  = HC_OK;
+    if (a->map == NULL) {
+        result = hc_gpu_map_create(&a->map, a->gpu, field, &options, &cli->log);
+    } else {
+        result = hc_gpu_map_update(a->map, field->heights, changed, NULL, &cli->log);
+    }
     a->relief->scene.relief.baked = a->map;
     return result;
 }

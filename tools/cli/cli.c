@@ -179,7 +179,7 @@ static void say_figure(hc_cli *cli, const char *name, const char *value, const c
     const bool   inner  = cli->group != cli->json;
     const size_t length = strlen(name) < sizeof label - 1 ? strlen(name) : sizeof label - 1;
     for (size_t i = 0; i < length; i++) {
-        label[i] = name[i] == '_' ? ' ' : name[i];
+        label[i] = (char)(name[i] == '_' ? ' ' : name[i]);
     }
     label[length] = '\0';
     hc_cli_say(cli, "%s%-*s %s%s%s\n", inner ? "  " : "", inner ? 14 : 16, label, value,

@@ -194,7 +194,7 @@ int hc_cli_run_terrain(hc_cli *cli)
     hc_cli_landscape landscape;
     hc_cli_route     route;
     int              code = check_meaning(cli);
-    code = code == HC_CLI_DONE ? hc_cli_check_frames(cli) : code;
+    code                  = code == HC_CLI_DONE ? hc_cli_check_frames(cli) : code;
     if (code != HC_CLI_DONE) {
         return code;
     }

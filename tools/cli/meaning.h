@@ -8,7 +8,8 @@
 
 #include <stddef.h>
 
-/* Of two options that say the same thing in two ways, at most one is given. Returns the exit code. */
+/* Of two options that say the same thing in two ways, at most one is given. Returns the exit
+ * code. */
 int hc_cli_check_pairs(hc_cli *cli, const char *const (*pairs)[2], size_t count);
 
 /* What draws. --backend auto has become gl by then, from which hc_cli_falls_back may lead. */

@@ -52,8 +52,8 @@ static void aim(hc_ray *rays, const job *j, piece p)
     }
 }
 
-/* Detail by detail: what the ground hides lies in its layer, and may see the sun. Steps that come to
- * nothing hide nothing. */
+/* Detail by detail: what the ground hides lies in its layer, and may see the sun. Steps that come
+ * to nothing hide nothing. */
 static void ask_details(const scratch *s, const hc_terrain *terrain, int count)
 {
     const hc_detail_method method = terrain->scene.detail_method;

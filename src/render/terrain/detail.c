@@ -159,11 +159,10 @@ static hc_result set_tops(hc_details *details, const hc_terrain_scene *scene, hc
 {
     const double wide = fmax(scene->spacing[0], scene->spacing[1]);
     for (int i = 0; i < details->count; i++) {
-        const hc_detail *map  = &details->maps[i];
-        hc_pyramid      *tops = &details->tops[i];
-        *tops                 = (hc_pyramid){ .width  = map->width,
-                                              .height = map->height,
-                                              .levels = hc_pyramid_levels(map->width, map->height) };
+        const hc_detail *map    = &details->maps[i];
+        hc_pyramid      *tops   = &details->tops[i];
+        const int        levels = hc_pyramid_levels(map->width, map->height);
+        *tops        = (hc_pyramid){ .width = map->width, .height = map->height, .levels = levels };
         tops->values = malloc(hc_pyramid_size(map->width, map->height) * sizeof *tops->values);
         if (tops->values == NULL) {
             return hc_fail(log, HC_ERROR_MEMORY, "no memory for a detail of %d x %d", map->width,

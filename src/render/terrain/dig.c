@@ -172,8 +172,8 @@ static double field_end(const grid *g, int axis, double size, double first)
     return g->along[axis] == 0.0 ? INFINITY : (end - g->place[axis]) / g->along[axis];
 }
 
-/* Above all ground or below all details: there is nothing farther on, though an upright ray comes to
- * no wall. */
+/* Above all ground or below all details: there is nothing farther on, though an upright ray comes
+ * to no wall. */
 static double layer_end(const walk *w)
 {
     double deep = 1.0;
@@ -255,8 +255,8 @@ static void detail_gap(double gap[HC_QUARTIC], const walk *w, double t)
     }
 }
 
-/* Over the ground less a share of each detail's whole depth: Bernstein coefficients from t to `end`.
- * blocks: it is nowhere under the surface in them; else nowhere over it. */
+/* Over the ground less a share of each detail's whole depth: Bernstein coefficients from t to
+ * `end`. blocks: it is nowhere under the surface in them; else nowhere over it. */
 static void bound_gap(double bounds[3], const walk *w, double t, double end, bool blocks)
 {
     const double reach = fmax(end - t, 0.0);
@@ -369,10 +369,10 @@ static bool goes_over(walk *w, double *t, double end)
 }
 
 /* From *t to the first contact; rising: to the first after the ray has come up out of the detail.
- * INFINITY: to where it has come out of the ground (w->emerged), or to the end. Blocks are walked as
- * nodes of the pyramid are (maxmip): up a level after each that the ray passes over, down a level
- * where it may not. Where it rises a root may be one that it only touches: it goes on behind it,
- * farther from time to time. */
+ * INFINITY: to where it has come out of the ground (w->emerged), or to the end. Blocks are walked
+ * as nodes of the pyramid are (maxmip): up a level after each that the ray passes over, down a
+ * level where it may not. Where it rises a root may be one that it only touches: it goes on behind
+ * it, farther from time to time. */
 static double walk_on(walk *w, double *t)
 {
     double slip = CAME_UP;
@@ -517,7 +517,8 @@ static double way_through(const walk *w, const hc_ray *ray, double t)
     return deep > 0.0 ? 1.25 * (deep + fmax(gap[0], 0.0)) / fmax(-gap[1], least) : 0.0;
 }
 
-/* From a face of a top on it is that top's detail, on whichever side of the face t was rounded to. */
+/* From a face of a top on it is that top's detail, on whichever side of the face t was rounded
+ * to. */
 static double way_into_face(const walk *w, const hc_hit *hit)
 {
     const double *along = w->grids[GROUND].along;

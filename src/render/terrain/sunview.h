@@ -18,7 +18,8 @@ typedef struct hc_sunview {
 
 #define HC_SUNVIEW_FAR 1e30F
 
-/* Place the map, and take memory for its depths. hc_sunview_free must follow, whatever the result. */
+/* Place the map, and take memory for its depths. hc_sunview_free must follow, whatever the
+ * result. */
 hc_result hc_sunview_place(hc_sunview *view, const struct hc_terrain *terrain, int side,
                            hc_log *log);
 /* Cast its rays on all threads; or */
