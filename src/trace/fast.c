@@ -65,6 +65,11 @@ static void set_axes(hc_fast *fast, const hc_field *field, const hc_trace_option
     fast->shift_z = place->scale_z > 0.0 ? -place->offset[2] / place->scale_z : 0.0;
 }
 
+static const hc_fast_axis *longer_of(const hc_fast *fast)
+{
+    return fast->x.cells > fast->y.cells ? &fast->x : &fast->y;
+}
+
 /* Rows, filled up to those that stand together. */
 static size_t rows_of(int rows, int bits)
 {
@@ -77,39 +82,41 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     *fast = (hc_fast){ .steps      = options->surface == HC_SURFACE_STEPS,
                        .open_sides = options->open_sides };
     set_axes(fast, field, options);
-    const int side   = fast->x.cells > fast->y.cells ? fast->x.cells : fast->y.cells;
-    size_t    blocks = 0;
-    int       width  = 1;
+    const hc_fast_axis *longer = longer_of(fast);
+    size_t              blocks = 0;
+    int                 k;
     do {
-        const int k     = fast->levels++;
-        width           = 1 << (HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * k);
-        const int wide  = (fast->x.cells + width - 1) / width + 1;
-        const int high  = (fast->y.cells + width - 1) / width + 1;
-        fast->stride[k] = wide;
+        k               = fast->levels++;
+        fast->stride[k] = hc_fast_block_count(&fast->x, k) + 1;
         fast->start[k]  = (int32_t)blocks;
-        blocks += (size_t)wide * rows_of(high, HC_FAST_BLOCK_BITS);
-    } while ((side + width - 1) / width > COARSEST);
+        blocks += (size_t)fast->stride[k]
+                  * rows_of(hc_fast_block_count(&fast->y, k) + 1, HC_FAST_BLOCK_BITS);
+    } while (hc_fast_block_count(longer, k) > COARSEST);
     fast->first_level    = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
-    fast->blur           = 0x1p-21F * (float)side;
+    fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
                      blocks };
 }
 
-static size_t pages(size_t bytes)
+static size_t unit_of(size_t bytes)
 {
-    const size_t unit = bytes >= (size_t)PAGE ? PAGE : 64;
+    return bytes >= (size_t)PAGE ? PAGE : 64;
+}
+
+static size_t whole_units(size_t bytes)
+{
+    const size_t unit = unit_of(bytes);
     return (bytes + unit - 1) / unit * unit;
 }
 
 /* Large pages, where there are: rays jump about, and each small page costs a look-up. */
 static void *take(size_t bytes)
 {
-    const size_t unit  = bytes >= (size_t)PAGE ? PAGE : 64;
-    void        *taken = aligned_alloc(unit, pages(bytes));
+    void *taken = aligned_alloc(unit_of(bytes), whole_units(bytes));
 #if defined(__linux__)
-    if (taken != NULL && unit == PAGE) {
-        (void)madvise(taken, pages(bytes), MADV_HUGEPAGE);
+    if (taken != NULL && unit_of(bytes) == PAGE) {
+        (void)madvise(taken, whole_units(bytes), MADV_HUGEPAGE);
     }
 #endif
     return taken;
@@ -129,8 +136,8 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
 {
     hc_fast      fast;
     const layout sizes = plan(&fast, field, options);
-    return sizeof fast + pages(sizes.heights * sizeof(float))
-           + pages(sizes.blocks * sizeof(hc_fast_block));
+    return sizeof fast + whole_units(sizes.heights * sizeof(float))
+           + whole_units(sizes.blocks * sizeof(hc_fast_block));
 }
 
 hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
@@ -171,9 +178,8 @@ void hc_fast_destroy(hc_fast *fast)
  * as one moved by its rounding there. */
 void hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach)
 {
-    const int side = fast->x.cells > fast->y.cells ? fast->x.cells : fast->y.cells;
-    *rise          = 0x1p-30;
-    *reach         = 0x1p-30 * side;
+    *rise  = 0x1p-30;
+    *reach = 0x1p-30 * longer_of(fast)->cells;
 }
 
 static hc_fast_march *kernel_of(const hc_fast *fast)

@@ -534,13 +534,12 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
 
 static bool take_level(level *l, const hc_fast *fast, int k)
 {
-    const int side = 1 << (HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * k);
-    l->side        = side;
-    l->width       = (fast->x.cells + side - 1) / side;
-    l->height      = (fast->y.cells + side - 1) / side;
-    l->blocks      = fast->blocks + fast->start[k];
-    l->pitch       = (size_t)l->width + 2 * DIAGONALS + TILE;
-    l->frame       = calloc(frame_size(l), sizeof(float));
+    l->side   = hc_fast_block_side(k);
+    l->width  = hc_fast_block_count(&fast->x, k);
+    l->height = hc_fast_block_count(&fast->y, k);
+    l->blocks = fast->blocks + fast->start[k];
+    l->pitch  = (size_t)l->width + 2 * DIAGONALS + TILE;
+    l->frame  = calloc(frame_size(l), sizeof(float));
     if (k > 0) {
         l->far = malloc((size_t)l->width * (size_t)l->height * 4 * sizeof(float));
     }

@@ -66,6 +66,18 @@ struct hc_fast {
     hc_fast_block *blocks;
 };
 
+/* Cells along a side of a level's blocks, and blocks along an axis without the one more. */
+static inline int hc_fast_block_side(int level)
+{
+    return 1 << (HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * level);
+}
+
+static inline int hc_fast_block_count(const hc_fast_axis *axis, int level)
+{
+    const int side = hc_fast_block_side(level);
+    return (axis->cells + side - 1) / side;
+}
+
 /* Where the height of a corner stands; where a block does, from the start of its level. */
 static inline size_t hc_fast_corner(const hc_fast *fast, int x, int y)
 {

@@ -4,11 +4,10 @@
 
 #include <string.h>
 
-/* Blocks of a level along an axis, and the one more at the end. */
+/* With the one more at the end. */
 static int count_blocks(const hc_fast_axis *axis, int level)
 {
-    const int bits = HC_FAST_BASE_BITS + HC_FAST_RATIO_BITS * level;
-    return ((axis->cells - 1) >> bits) + 2;
+    return hc_fast_block_count(axis, level) + 1;
 }
 
 /* Where a level begins, along the axis that they stand one after another on. */
