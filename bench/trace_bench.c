@@ -138,7 +138,7 @@ static int list_lines(line *lines, const bench *b, const stage *stages, int coun
     for (int i = 0; i < count; i++) {
         for (int mode = 0; mode < HC_PEER_MODES && stages[i].peer->modes[mode] != NULL; mode++) {
             for (int n = 1; n <= threads; n += threads > 1 ? threads - 1 : 1) {
-                lines[made++] = (line){ &stages[i], mode, n, INFINITY, 0, 0 };
+                lines[made++] = (line){ .stage = &stages[i], .mode = mode, .threads = n };
             }
         }
     }
@@ -177,7 +177,9 @@ static hc_result measure_set(const bench *b, line *lines, int count, int set)
                 return HC_ERROR_CANCELLED;
             }
             l->fastest = fmin(l->fastest, run_set(b, l->stage, l->mode, set, l->threads));
-            l->hits    = count_hits(b, l->stage, set, &l->cast);
+            if (run == 0) { /* each run has the same */
+                l->hits = count_hits(b, l->stage, set, &l->cast);
+            }
         }
     }
     for (int i = 0; i < count; i++) {
