@@ -60,6 +60,41 @@ int agree_shots_odd(const agree_shot *a, const agree_shot *b)
     return odd;
 }
 
+static uint64_t wrong_rays(const agree_shot *shot)
+{
+    return shot->picture.figures.lost + shot->picture.figures.made_up;
+}
+
+agree_toured agree_tour(const hc_terrain_scene *scene, hc_view view, float parallel)
+{
+    static agree_shot cpu, gl;
+    hc_terrain       *by_gl  = agree_terrain_make(scene, view, HC_BACKEND_GL); /* or skips */
+    hc_terrain       *by_cpu = agree_terrain_make(scene, view, HC_BACKEND_CPU);
+    const int         last   = parallel > 0.0F ? HC_TOUR_ORBIT + 1 : HC_TOUR_ORBIT;
+    agree_toured      toured = { .least_hits = SHOT_PIXELS };
+    for (int from = 0; from <= last; from++) {
+        hc_camera camera;
+        hc_terrain_tour(&camera, by_cpu, from > HC_TOUR_ORBIT ? HC_TOUR_ORBIT : (hc_tour)from, 0.3);
+        camera.orthographic = from > HC_TOUR_ORBIT ? parallel : 0.0F;
+        agree_shot_terrain(&cpu, by_cpu, &camera);
+        agree_shot_terrain(&gl, by_gl, &camera);
+        const int odd = agree_shots_odd(&cpu, &gl);
+        if (odd > SHOT_ODD_MAX) {
+            fail_msg("%s, %s, %d x %d, view %d, camera %d: %d pixels differ",
+                     hc_trace_method_name(scene->trace.method),
+                     hc_detail_method_name(scene->detail_method), scene->field.width,
+                     scene->field.height, (int)view, from, odd);
+        }
+        const uint64_t hits = cpu.picture.figures.hits;
+        toured.least_hits   = hits < toured.least_hits ? hits : toured.least_hits;
+        toured.wrong_by_cpu += wrong_rays(&cpu);
+        toured.wrong_by_gl += wrong_rays(&gl);
+    }
+    hc_terrain_destroy(by_cpu);
+    hc_terrain_destroy(by_gl);
+    return toured;
+}
+
 /* ---- maps ------------------------------------------------------------------------------------ */
 
 static bool bake(float *ratios, const hc_field *field, hc_cones cones, hc_method method)

@@ -32,6 +32,16 @@ void agree_shot_terrain(agree_shot *shot, const hc_terrain *terrain, const hc_ca
 /* Pixels that differ. */
 int agree_shots_odd(const agree_shot *a, const agree_shot *b);
 
+/* Of all pictures of agree_tour. */
+typedef struct agree_toured {
+    uint64_t least_hits;                /* in a picture by the CPU            */
+    uint64_t wrong_by_cpu, wrong_by_gl; /* rays lost and made up, HC_VIEW_MISSED */
+} agree_toured;
+
+/* From every tour, by the CPU and by OpenGL; if `parallel` > 0, once more with parallel rays that
+ * span so much. Fails the test where the two differ in more than SHOT_ODD_MAX pixels. */
+agree_toured agree_tour(const hc_terrain_scene *scene, hc_view view, float parallel);
+
 /* A made field and all that methods need of it. */
 enum { SHOT_SIDE_MAX = 48, SHOT_SAMPLES_MAX = SHOT_SIDE_MAX * SHOT_SIDE_MAX };
 typedef struct agree_maps {

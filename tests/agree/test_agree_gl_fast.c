@@ -36,27 +36,13 @@ static hc_terrain_scene scene_of(const ground *g)
     };
 }
 
-static void look(const ground *g, hc_view view)
+static void look_at_each(const ground *grounds, size_t count)
 {
-    const hc_terrain_scene scene  = scene_of(g);
-    hc_terrain            *by_gl  = agree_terrain_make(&scene, view, HC_BACKEND_GL); /* or skips */
-    hc_terrain            *by_cpu = agree_terrain_make(&scene, view, HC_BACKEND_CPU);
-    for (int tour = 0; tour <= HC_TOUR_ORBIT; tour++) {
-        hc_camera camera;
-        hc_terrain_tour(&camera, by_cpu, (hc_tour)tour, 0.4);
-        agree_shot_terrain(&cpu, by_cpu, &camera);
-        agree_shot_terrain(&gl, by_gl, &camera);
-        const int odd = agree_shots_odd(&cpu, &gl);
-        if (odd > SHOT_ODD_MAX) {
-            fail_msg("%s %d x %d, view %d, tour %d: %d pixels differ", g->name, g->width, g->height,
-                     (int)view, tour, odd);
-        }
-        if (view == HC_VIEW_MISSED) {
-            assert_int_equal(gl.picture.figures.lost + gl.picture.figures.made_up, 0);
-        }
+    for (size_t i = 0; i < count; i++) {
+        const hc_terrain_scene scene = scene_of(&grounds[i]);
+        (void)agree_tour(&scene, HC_VIEW_SHADED, 0.0F);
+        assert_true(agree_tour(&scene, HC_VIEW_MISSED, 0.0F).wrong_by_gl == 0);
     }
-    hc_terrain_destroy(by_cpu);
-    hc_terrain_destroy(by_gl);
 }
 
 static void every_shape(void **state)
@@ -70,10 +56,7 @@ static void every_shape(void **state)
         { "spikes", 128, 128, HC_TEXEL, HC_SURFACE_BILINEAR, true },
     };
     (void)state;
-    for (size_t i = 0; i < sizeof grounds / sizeof *grounds; i++) {
-        look(&grounds[i], HC_VIEW_SHADED);
-        look(&grounds[i], HC_VIEW_MISSED);
-    }
+    look_at_each(grounds, sizeof grounds / sizeof *grounds);
 }
 
 static void steps(void **state)
@@ -83,10 +66,7 @@ static void steps(void **state)
         { "bricks", 64, 48, HC_TEXEL, HC_SURFACE_STEPS, true },
     };
     (void)state;
-    for (size_t i = 0; i < sizeof grounds / sizeof *grounds; i++) {
-        look(&grounds[i], HC_VIEW_SHADED);
-        look(&grounds[i], HC_VIEW_MISSED);
-    }
+    look_at_each(grounds, sizeof grounds / sizeof *grounds);
 }
 
 /* ---- fields that repeat ---------------------------------------------------------------------- */
