@@ -166,9 +166,7 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
     for (int r = 0; r < HC_TILE_SIDE && tile_y * HC_TILE_SIDE + r < plan->tree.height; r++) {
         const size_t y  = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
         float       *to = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
-        if (channels == 1 && columns == HC_TILE_SIDE) { /* a size that compilers know */
-            memcpy(to, plain + r * HC_TILE_SIDE, HC_TILE_SIDE * sizeof *to);
-        } else if (channels == 1) {
+        if (channels == 1) {
             memcpy(to, plain + r * HC_TILE_SIDE, (size_t)columns * sizeof *to);
         } else {
             write_channels(to, plan, found, r * HC_TILE_SIDE, columns);
