@@ -10,9 +10,10 @@ python3 scripts/check_layers.py || failed=1
 format=$(command -v clang-format-14 || command -v clang-format)
 git ls-files '*.c' '*.h' | xargs "$format" --dry-run --Werror || failed=1
 
-if git ls-files '*.c' '*.h' '*.cpp' '*.sh' '*.py' '*.cmake' '*CMakeLists.txt' |
-    xargs grep -nE '^.{101,}$'; then
-    echo "lint: lines over 100 columns"
+texts=('*.c' '*.h' '*.inc' '*.cpp' '*.glsl' '*.frag' '*.vert' '*.comp' '*.sh' '*.py' '*.mjs'
+    '*.cmake' '*CMakeLists.txt')
+if git ls-files "${texts[@]}" | xargs grep -nP '^.{101,}$|\t|[ \r]$'; then
+    echo "lint: lines over 100 columns, tabs, blanks at the end"
     failed=1
 fi
 

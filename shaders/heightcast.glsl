@@ -8,9 +8,8 @@
  *                                   HC_CONE_FIXED, HC_CONE_LOOP, HC_CONE_EXACT, HC_RELAXED,
  *                                   HC_ROBUST, HC_QUICK, HC_PDM, HC_FAST
  *     #define HC_GATHER             read the corners of a cell with one textureGather (GLSL 4.00,
- * GLSL
- *                                   ES 3.10): then hc_heights and hc_ratios must repeat along the
- *                                   axes that hc_wraps names
+ *                                   GLSL ES 3.10): then hc_heights and hc_ratios must repeat along
+ *                                   the axes that hc_wraps names
  *     #define HC_STEPS              samples are flat tops as wide as they are apart, instead of
  *                                   patches between them: HC_SAFE, HC_MAXMIP and HC_FAST (HC_QDM:
  *                                   always)
@@ -18,8 +17,8 @@
  *     #define HC_OPEN_SIDES         rays that come in through a side below the surface do not hit
  *                                   it there, but go on, may come up, and then hit from above
  *     #define HC_DUMMER             hc_heights is the RGBA map of the 2006 paper: heights in R,
- * roots
- *                                   of the ratios in G, slopes in B and A; hc_ratios is not read
+ *                                   roots of the ratios in G, slopes in B and A; hc_ratios is not
+ *                                   read
  * Methods, and what they find and lose: include/heightcast/trace.h, where they have the same names.
  *
  *     hc_hit hit = hc_nearest(origin, direction, 1e9);

@@ -114,8 +114,7 @@ typedef struct hc_scene {
  *              than depth / 64, or there is one where the method has none), yellow where one was
  *              made up
  * error        distance from the exact hit, as a heat map that ends at `top`; red where it alone
- * hits,
- *              yellow where the method alone does
+ *              hits, yellow where the method alone does
  * crossings    moves of the view ray from node to node as a spectrum: blue to sky-blue up to 16,
  *              green to yellow up to 35, to red at 85, darker beyond */
 typedef enum hc_view {

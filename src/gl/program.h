@@ -14,7 +14,7 @@ extern const hc_shader_text hc_shader_texts[];
 
 const char *hc_shader_text_named(const char *name);
 
-enum { HC_GL_FILES_MAX = 4 };
+enum { HC_GL_FILES_MAX = 5 };
 
 /* Shaders of a program: texts, which end with a NULL name, behind `head`. */
 typedef struct hc_gl_recipe {

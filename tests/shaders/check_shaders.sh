@@ -13,7 +13,7 @@ mkdir -p "$folder"
 compiled=0
 failed=0
 scene=relief
-between= # files between the marchers and the scene
+details= # "detail dig" before a terrain that has them
 
 head_of() {
     if [ "$1" = es ]; then
@@ -36,14 +36,19 @@ check() {
 
 # fragment NAME LANGUAGE DEFINE...: what is drawn is $scene
 fragment() {
-    local name=$1 language=$2 define
+    local name=$1 language=$2 define file
     shift 2
     {
         head_of "$language"
         for define in "$@"; do
             printf '#define %s\n' "$define"
         done
-        cat "$shaders/heightcast.glsl" ${between:+"$shaders/$between"} "$shaders/$scene.frag"
+        cat "$shaders/heightcast.glsl"
+        for file in $details; do
+            cat "$shaders/$file.glsl"
+        done
+        [ $scene = relief ] || cat "$shaders/ground.glsl"
+        cat "$shaders/$scene.frag"
     } >"$folder/$name"
 }
 
@@ -57,7 +62,7 @@ for language in core es; do
         scene=terrain
         fragment $language-bodies-$method.frag $language "HC_METHOD HC_$method" BODIES
         check $language-bodies-$method.frag frag
-        between=detail.glsl
+        details="detail dig"
         for how in SAFE STEPS; do
             for part in RAYS BODIES; do
                 fragment $language-detail-$how-$part-$method.frag $language \
@@ -65,7 +70,7 @@ for language in core es; do
                 check $language-detail-$how-$part-$method.frag frag
             done
         done
-        between=
+        details=
         fragment $language-polygons-$method.frag $language "HC_METHOD HC_$method" POLYGONS
         check $language-polygons-$method.frag frag
         for scene in terrain relief; do
@@ -84,11 +89,11 @@ for language in core es; do
         fragment $language-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS \
             HC_OPEN_SIDES
         check $language-steps-$method.frag frag
-        between=detail.glsl
+        details="detail dig"
         fragment $language-detail-steps-$method.frag $language "HC_METHOD HC_$method" HC_STEPS \
             HC_OPEN_SIDES DETAILS
         check $language-detail-steps-$method.frag frag
-        between=
+        details=
     done
     scene=relief
     fragment $language-sparse.frag $language "HC_METHOD HC_FAST" HC_SPARSE

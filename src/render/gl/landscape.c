@@ -212,11 +212,11 @@ static hc_result build(unsigned *program, const hc_terrain *terrain, const char 
                        : terrain->scene.polygons != HC_POLYGONS_NONE && !exact ? "SKY"
                                                                                : "RAYS";
     add_choices(head, sizeof head, terrain, part, exact);
-    hc_gl_recipe recipe = hc_gl_recipe_of(head, before, "terrain.frag");
-    if (terrain->details.count > 0) { /* between the marchers and what is drawn with them */
-        recipe.fragment[2] = recipe.fragment[1];
-        recipe.fragment[1] = (hc_shader_text){ "detail.glsl", hc_shader_text_named("detail.glsl") };
-    }
+    const char *const  plain[]    = { "ground.glsl", "terrain.frag", NULL };
+    const char *const  detailed[] = { "detail.glsl", "dig.glsl", "ground.glsl", "terrain.frag",
+                                      NULL };
+    const hc_gl_recipe recipe =
+        hc_gl_recipe_of(head, before, terrain->details.count > 0 ? detailed : plain);
     const hc_result result = hc_gl_build(program, &recipe, log);
     if (result == HC_OK) {
         glUseProgram(*program);

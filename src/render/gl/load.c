@@ -109,6 +109,7 @@ void hc_gl_set(unsigned program, const hc_stage *stage, hc_trace_method method)
 hc_result hc_gl_build_relief(unsigned *program, hc_gl_context *context, const char *head,
                              hc_log *log)
 {
-    const hc_gl_recipe recipe = hc_gl_recipe_of(head, "screen.vert", "relief.frag");
+    const char *const  files[] = { "relief.frag", NULL };
+    const hc_gl_recipe recipe  = hc_gl_recipe_of(head, "screen.vert", files);
     return hc_gl_program_of(program, context, &recipe, log);
 }

@@ -199,11 +199,18 @@ void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones,
                    is_sparse(tracer) ? "#define HC_SPARSE\n" : "");
 }
 
-hc_gl_recipe hc_gl_recipe_of(const char *head, const char *before, const char *name)
+static hc_shader_text named(const char *name)
 {
-    return (
-        hc_gl_recipe){ .head     = head,
-                       .vertex   = { { before, hc_shader_text_named(before) } },
-                       .fragment = { { "heightcast.glsl", hc_shader_text_named("heightcast.glsl") },
-                                     { name, hc_shader_text_named(name) } } };
+    return (hc_shader_text){ name, hc_shader_text_named(name) };
+}
+
+hc_gl_recipe hc_gl_recipe_of(const char *head, const char *vertex, const char *const *fragment)
+{
+    hc_gl_recipe recipe = { .head     = head,
+                            .vertex   = { named(vertex) },
+                            .fragment = { named("heightcast.glsl") } };
+    for (int i = 0; fragment[i] != NULL; i++) {
+        recipe.fragment[1 + i] = named(fragment[i]);
+    }
+    return recipe;
 }

@@ -49,8 +49,8 @@ int hc_gl_method(hc_trace_method method);
 void hc_gl_head(char *head, size_t size, hc_trace_method method, hc_cones cones,
                 const hc_tracer *tracer);
 
-/* The vertex shader `before`, and the fragment shader `name` behind heightcast.glsl, with `head`
- * before both. */
-hc_gl_recipe hc_gl_recipe_of(const char *head, const char *before, const char *name);
+/* A file for the vertex shader, and for the fragment shader some, NULL at the end, behind
+ * heightcast.glsl; `head` before both. */
+hc_gl_recipe hc_gl_recipe_of(const char *head, const char *vertex, const char *const *fragment);
 
 #endif
