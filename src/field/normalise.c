@@ -212,7 +212,7 @@ static hc_result check_holes(const survey *found, const source *from, hc_holes p
         return hc_fail(
             log, HC_ERROR_FIELD,
             "%zu of %zu samples have no height (NaN, infinite or nodata), the first at [%d, %d]: "
-            "%.9g; ask to fill them or to set them to the lowest height",
+            "%.9g; set holes to fill or lowest",
             found->holes, samples, found->hole_x, found->hole_y, found->hole_value);
     }
     return HC_OK;

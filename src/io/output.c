@@ -15,8 +15,8 @@ enum { NAME_TRIES = 100 };
 
 static hc_result exists(const char *path, hc_log *log)
 {
-    return hc_fail(log, HC_ERROR_EXISTS,
-                   "%s: exists already; choose another name or ask to overwrite it", path);
+    return hc_fail(log, HC_ERROR_EXISTS, "%s: exists already; choose another name or set overwrite",
+                   path);
 }
 
 /* Renaming onto a device or a folder would do harm, so only what is absent or a regular file may be

@@ -297,6 +297,27 @@ class Outputs(Case):
         self.refused("bake", "hills.pgm", "pipe.png", "--overwrite", code=INPUT_OUTPUT,
                      says="not a regular file")
 
+    def test_names_that_cannot_be_are_refused_before_the_bake(self):
+        self.hills()
+        for name, says in [("n" * 300 + ".png", "too long"), ("hills.pgm/out.png", "directory")]:
+            figures = self.json("bake", "hills.pgm", name, code=INPUT_OUTPUT)
+            self.assertIn(says, figures["error"])
+            self.assertEqual(figures["seconds"], {})
+
+    def test_links(self):
+        """One that leads nowhere is as much in the way as a file."""
+        self.hills()
+        for name, target in [("nowhere.png", "missing"), ("round.png", "round.png"),
+                             ("file.png", "hills.pgm")]:
+            self.path(name).symlink_to(target)
+            figures = self.json("bake", "hills.pgm", name, code=INPUT_OUTPUT)
+            self.assertIn("--overwrite", figures["error"])
+            self.assertEqual(figures["seconds"], {})
+            self.assertTrue(self.path(name).is_symlink())
+            self.run_program("bake", "hills.pgm", name, "--overwrite")
+            self.assertFalse(self.path(name).is_symlink())
+        self.assertTrue(self.path("hills.pgm").read_bytes().startswith(b"P5"))
+
     def test_full_disk_leaves_nothing(self):
         self.hills()
         for ending in ["png", "tif", "exr", "npy", "ktx2", "dds"]:

@@ -120,6 +120,7 @@ class Bench(Case):
                 self.assertLess(row["peak_bytes"], 1.25 * expected)
 
     def test_files(self):
+        self.path("report.json.part").write_bytes(b"precious")
         table = self.text("bench", "bake", *SMALL, "--field", "fbm,spikes", "--methods", "exact",
                           "--json", "report.json", "--csv", "report.csv")
         report = json.loads(self.path("report.json").read_text())
@@ -133,6 +134,8 @@ class Bench(Case):
         self.assertRegex(table, r"(?m)^spikes +32 exact +quad ")
         self.refused("bench", "bake", "--json", "report.json", code=INPUT_OUTPUT,
                      says="--overwrite")
+        self.assertEqual(self.path("report.json.part").read_bytes(), b"precious")
+        self.assertEqual(self.files(), ["report.csv", "report.json", "report.json.part"])
 
     def test_rays(self):
         table = self.text("bench", "trace", "--sizes", "24", "--field", f"fbm,{ELEVATIONS}",

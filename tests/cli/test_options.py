@@ -124,6 +124,21 @@ class Options(Case):
         self.refused("verify", code=USAGE, says="MAP")
         self.refused("gen", "fbm", code=USAGE, says="NAME OUT")
 
+    def test_empty_arguments(self):
+        self.refused("info", "", code=USAGE, says=["argument 1 is empty", "FILE"])
+        self.refused("bake", "a", "", code=USAGE, says=["argument 2 is empty", "IN OUT"])
+
+    def test_outputs_that_are_the_same_file(self):
+        field = self.hills()
+        for arguments in [["trace", field, "--size", "4", "--out", "a.npy", "--save-rays"],
+                          ["render", "relief", field, "--size", "4", "--out", "a.exr",
+                           "--depth-out"],
+                          ["bench", "bake", "--sizes", "8", "--json", "a.json", "--csv"]]:
+            name = next(word for word in arguments if word.startswith("a."))
+            for same in [name, f"./{name}", str(self.path(name))]:
+                self.refused(*arguments, same, "--overwrite", code=USAGE, says="are the same file")
+        self.assertEqual(self.files(), [field])
+
     def test_usage_errors_reach_json_too(self):
         figures = self.json("info", "missing.png", code=INPUT_OUTPUT)
         self.assertIn("missing.png", figures["error"])

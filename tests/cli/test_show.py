@@ -3,12 +3,15 @@
 import fcntl
 import os
 import pty
+import signal
 import struct
+import subprocess
 import termios
+import time
 import unittest
 
 from picture import read_picture
-from program import INPUT_OUTPUT, USAGE, Case, main
+from program import INPUT_OUTPUT, PROGRAM, USAGE, Case, main
 
 MARGIN, ABOVE, BELOW = 8, 18, 34  # around panels, their title, their scale
 
@@ -66,6 +69,17 @@ class Show(Case):
         for name in ("up", "down"):
             self.run_program("bake", f"{name}.pgm", f"{name}.npy", "--map", "gradient")
         self.assertEqual(self.picture("up.npy"), self.picture("down.npy"))
+
+    def test_ctrl_c_while_writing_leaves_no_part(self):
+        self.run_program("gen", "noise", "wide.npy", "--size", "1200x1200")
+        running = subprocess.Popen([PROGRAM, "show", "wide.npy", "--out", "p.png"], cwd=self.folder,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.DEVNULL)
+        while running.poll() is None and len(self.files()) == 1:
+            time.sleep(0.001)
+        running.send_signal(signal.SIGINT)
+        running.wait(timeout=60)
+        self.assertIn(self.files(), [["wide.npy"], ["p.png", "wide.npy"]])
 
     def test_refusals(self):
         self.refused("show", self.hills(), code=USAGE, says=["no terminal", "--out"])

@@ -317,6 +317,16 @@ class Terrain(Case):
                 self.path("all.txt").write_text(text)
                 self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
                             says=["all.txt", says])
+        for text in [b"ball 1 2 3 4\n\0\0", b"ball 1 2 3 4\0\n",
+                     "ball 1 2 3 4".encode("utf-16-be")]:
+            self.path("all.txt").write_bytes(text)
+            self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
+                        says=["all.txt, line", "save it as text"])
+        self.path("all.txt").write_text("ball 1 2 3 4" + 5000 * " " + "\n")
+        self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,
+                    says=["all.txt, line 1", "4095"])
+        self.path("all.txt").write_text("ball 1 2 3 1e10\n")
+        self.refuse("--out", "a.png", "--objects", "all.txt", code=USAGE, says="1e+09")
         self.path("bad.obj").write_text("v 0 0 0\nf 1 2 3\n")
         self.path("all.txt").write_text("bad.obj 1 2 3 4\n")
         self.refuse("--out", "a.png", "--objects", "all.txt", code=BAD_FILE,

@@ -102,7 +102,9 @@ static int check_arguments(hc_cli *cli)
     if (code == HC_CLI_DONE && settings->csv != NULL) {
         code = hc_cli_check_output(cli, settings->csv);
     }
-    return code;
+    return code != HC_CLI_DONE || !json_file
+               ? code
+               : hc_cli_check_apart(cli, "json", settings->report, "csv", settings->csv);
 }
 
 static int measure(hc_cli *cli, const hc_cli_grounds *in, hc_cli_bench *bench, hc_gpu *gpu)

@@ -89,6 +89,7 @@ static int put_panels(hc_cli *cli, const hc_cli_panel *panels, const hc_cli_anyf
     const int count  = file->channel_count;
     hc_result result = HC_OK;
     if (cli->settings.out != NULL) {
+        hc_cli_phase(cli, "save");
         result =
             hc_cli_save_panels(cli, cli->settings.out, panels, count, file->width, file->height);
     } else {

@@ -97,6 +97,9 @@ static int check_outputs(hc_cli *cli)
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "--out and --save-rays cannot both be standard output; name a file");
     }
+    if (code == HC_CLI_DONE) {
+        code = hc_cli_check_apart(cli, "out", settings->out, "save-rays", settings->rays.save);
+    }
     return code == HC_CLI_DONE && settings->rays.picture != NULL
                ? hc_cli_check_picture(cli, "picture", settings->rays.picture)
                : code;

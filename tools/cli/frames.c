@@ -45,12 +45,10 @@ int hc_cli_check_frames(hc_cli *cli)
     int code = check_output(cli, "out", settings->out, ".png, .exr");
     if (code == HC_CLI_DONE && settings->render.depth_out != NULL) {
         code = check_output(cli, "depth-out", settings->render.depth_out, ".exr, .pfm, .npy");
-        if (code == HC_CLI_DONE && strcmp(settings->out, settings->render.depth_out) == 0) {
-            code = hc_cli_fail(cli, HC_CLI_USAGE, "--out and --depth-out are the same file, %s",
-                               settings->out);
-        }
     }
-    return code;
+    return code != HC_CLI_DONE ? code
+                               : hc_cli_check_apart(cli, "out", settings->out, "depth-out",
+                                                    settings->render.depth_out);
 }
 
 /* ---- files ---- */

@@ -1,5 +1,7 @@
 #include "output.h"
 
+#include "interrupt.h"
+
 #include <errno.h>
 #include <stdio.h>
 #include <string.h>
@@ -52,14 +54,17 @@ int hc_cli_check_output(hc_cli *cli, const char *path)
         return hc_cli_fail(cli, HC_CLI_USAGE,
                            "an output cannot be standard output; give the name of a file");
     }
-    if (stat(path, &status) == 0) {
-        if (!S_ISREG(status.st_mode)) {
-            return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s is not a regular file", path);
-        }
-        if (!cli->settings.save.overwrite) {
-            return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s exists; --overwrite replaces it",
-                               path);
-        }
+    const bool there = lstat(path, &status) == 0;
+    if (!there && errno != ENOENT) {
+        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot write %s: %s", path, strerror(errno));
+    }
+    const bool leads_nowhere = there && S_ISLNK(status.st_mode) && stat(path, &status) != 0;
+    if (there && !leads_nowhere && !S_ISREG(status.st_mode)) {
+        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT,
+                           "%s is not a regular file; name another output", path);
+    }
+    if (there && !cli->settings.save.overwrite) {
+        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s exists; --overwrite replaces it", path);
     }
     if (!directory_of(path, directory, sizeof directory)) {
         return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s: the name is too long", path);
@@ -70,6 +75,28 @@ int hc_cli_check_output(hc_cli *cli, const char *path)
     return HC_CLI_DONE;
 }
 
+static const char *name_of(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? path : slash + 1;
+}
+
+int hc_cli_check_apart(hc_cli *cli, const char *first, const char *a, const char *second,
+                       const char *b)
+{
+    char        folder_a[4096];
+    char        folder_b[4096];
+    struct stat x;
+    struct stat y;
+    if (a == NULL || b == NULL || strcmp(name_of(a), name_of(b)) != 0
+        || !directory_of(a, folder_a, sizeof folder_a)
+        || !directory_of(b, folder_b, sizeof folder_b) || stat(folder_a, &x) != 0
+        || stat(folder_b, &y) != 0 || x.st_dev != y.st_dev || x.st_ino != y.st_ino) {
+        return HC_CLI_DONE;
+    }
+    return hc_cli_fail(cli, HC_CLI_USAGE, "--%s and --%s are the same file, %s", first, second, a);
+}
+
 double hc_cli_file_bytes(const char *path)
 {
     struct stat status;
@@ -78,19 +105,26 @@ double hc_cli_file_bytes(const char *path)
 
 int hc_cli_write_text(hc_cli *cli, const char *path, const char *text)
 {
-    char temporary[4096];
-    if (snprintf(temporary, sizeof temporary, "%s.part", path) >= (int)sizeof temporary) {
+    char      temporary[4096];
+    const int folder = (int)(name_of(path) - path);
+    if (snprintf(temporary, sizeof temporary, "%.*sheightcast-%ld.tmp", folder, path,
+                 (long)getpid())
+        >= (int)sizeof temporary) {
         return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "%s: the name is too long", path);
     }
-    FILE *file = fopen(temporary, "w");
-    bool  good = file != NULL && fputs(text, file) >= 0;
-    good       = file != NULL && fclose(file) == 0 && good;
-    if (!good || rename(temporary, path) != 0) {
-        const int reason = errno;
+    hc_cli_defer_signals(true);
+    FILE *file       = fopen(temporary, "wx"); /* not into what is somebody else's */
+    bool  good       = file != NULL && fputs(text, file) >= 0;
+    good             = file != NULL && fclose(file) == 0 && good;
+    good             = good && rename(temporary, path) == 0;
+    const int reason = errno;
+    if (!good && file != NULL) {
         (void)remove(temporary);
-        return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot write %s: %s", path, strerror(reason));
     }
-    return HC_CLI_DONE;
+    hc_cli_defer_signals(false);
+    return good ? HC_CLI_DONE
+                : hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot write %s: %s", path,
+                              strerror(reason));
 }
 
 int hc_cli_check_picture(hc_cli *cli, const char *option, const char *path)

@@ -16,6 +16,11 @@ int hc_cli_check_output(hc_cli *cli, const char *path);
 /* The same for the picture that --`option` names: a .png. */
 int hc_cli_check_picture(hc_cli *cli, const char *option, const char *path);
 
+/* HC_CLI_DONE unless the options `first` and `second` name the same file, by paths a and b; either
+ * may be NULL. Their folders must be there. */
+int hc_cli_check_apart(hc_cli *cli, const char *first, const char *a, const char *second,
+                       const char *b);
+
 /* Bytes of the file at `path`; 0 if it is not there. */
 double hc_cli_file_bytes(const char *path);
 

@@ -141,6 +141,12 @@ static int run_checked(hc_cli *cli, const hc_cli_command *command)
         return hc_cli_fail(cli, HC_CLI_USAGE, "unexpected argument '%s'; needs %s",
                            cli->settings.paths[command->paths_max], command->arguments);
     }
+    for (int i = 0; i < paths; i++) {
+        if (cli->settings.paths[i][0] == '\0') {
+            return hc_cli_fail(cli, HC_CLI_USAGE, "argument %d is empty; needs %s", i + 1,
+                               command->arguments);
+        }
+    }
     return command->run(cli);
 }
 

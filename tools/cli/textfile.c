@@ -20,6 +20,22 @@ static int split(char *words[HC_CLI_WORDS_MAX], char *line)
     return count;
 }
 
+/* Length of the next line, without its end; LINE_MAX: it is longer; -1: there is none. */
+static int next_line(char line[LINE_MAX], FILE *file)
+{
+    int length = 0;
+    int c      = getc(file);
+    if (c == EOF) {
+        return -1;
+    }
+    while (c != EOF && c != '\n' && length < LINE_MAX) {
+        line[length++] = (char)c;
+        c              = getc(file);
+    }
+    line[length < LINE_MAX ? length : LINE_MAX - 1] = '\0';
+    return length;
+}
+
 int hc_cli_read_lines(hc_cli *cli, const char *path, hc_cli_line *take, void *user)
 {
     char  line[LINE_MAX];
@@ -28,15 +44,22 @@ int hc_cli_read_lines(hc_cli *cli, const char *path, hc_cli_line *take, void *us
     if (file == NULL) {
         return hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot read %s: %s", path, strerror(errno));
     }
-    for (int i = 1; code == HC_CLI_DONE && fgets(line, sizeof line, file) != NULL; i++) {
-        char *words[HC_CLI_WORDS_MAX];
-        if (strchr(line, '\n') == NULL && strlen(line) == sizeof line - 1) {
-            code = hc_cli_fail(cli, HC_CLI_BAD_FILE, "%s, line %d: longer than %d characters", path,
-                               i, LINE_MAX - 2);
+    for (int i = 1; code == HC_CLI_DONE; i++) {
+        char     *words[HC_CLI_WORDS_MAX];
+        const int length = next_line(line, file);
+        if (length < 0) {
             break;
         }
-        const int count = split(words, line);
-        code            = count > 0 ? take(user, cli, words, count, i) : HC_CLI_DONE;
+        if (length == LINE_MAX) {
+            code = hc_cli_fail(cli, HC_CLI_BAD_FILE, "%s, line %d: longer than %d characters", path,
+                               i, LINE_MAX - 1);
+        } else if (strlen(line) < (size_t)length) {
+            code = hc_cli_fail(cli, HC_CLI_BAD_FILE,
+                               "%s, line %d: has a zero byte; save it as text", path, i);
+        } else {
+            const int count = split(words, line);
+            code            = count > 0 ? take(user, cli, words, count, i) : HC_CLI_DONE;
+        }
     }
     if (code == HC_CLI_DONE && ferror(file)) {
         code = hc_cli_fail(cli, HC_CLI_INPUT_OUTPUT, "cannot read %s: %s", path, strerror(errno));

@@ -11,7 +11,7 @@ enum { HC_CLI_WORDS_MAX = 16 };
 typedef int hc_cli_line(void *user, hc_cli *cli, char **words, int count, int line);
 
 /* Hand on each line that has words, until one gives anything but HC_CLI_DONE. Returns the exit
- * code: also for files that cannot be read, or have lines that are too long. */
+ * code: also for files that cannot be read, are no text, or have too long lines. */
 int hc_cli_read_lines(hc_cli *cli, const char *path, hc_cli_line *take, void *user);
 
 /* A finite number and nothing else. */

@@ -66,10 +66,10 @@ static hc_result check_object(const hc_object *object, int index, hc_log *log)
     CHECK(check_point("object.place", object->place, log));
     if (object->mesh == NULL || !(object->size >= 0.0 && object->size <= 1e9)
         || !(fabs(object->turn) <= 1e9)) {
-        return hc_fail(log, HC_ERROR_ARGUMENT,
-                       "object %d has %s, size %g and turn %g; a size is above 0, a turn finite",
-                       index, object->mesh != NULL ? "a mesh" : "no mesh", object->size,
-                       object->turn);
+        return hc_fail(
+            log, HC_ERROR_ARGUMENT,
+            "object %d has %s, size %g and turn %g; a size is 0 .. 1e+09, a turn within 1e+09",
+            index, object->mesh != NULL ? "a mesh" : "no mesh", object->size, object->turn);
     }
     return hc_mesh_check(object->mesh, log);
 }
