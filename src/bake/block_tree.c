@@ -8,7 +8,7 @@
 
 enum { SIDE = 4, ENTRIES = SIDE * SIDE };
 
-/* Fields that use less of 0..1 than this are searched relative to their own lowest height. */
+/* Fields that use less of 0..1 than this are searched with their own range. */
 static const float SMALL_RANGE = 1.0F / 64.0F;
 
 /* Fewer nodes than this are gathered sooner than threads are started. */
@@ -119,12 +119,6 @@ static void gather_node(const hc_block_tree *tree, int k, int x, int y)
     }
 }
 
-static void find_top(hc_block_tree *tree)
-{
-    const float lift = tree->count == 1 ? tree->base : 0.0F;
-    tree->top        = highest(hc_tree_node(&tree->levels[tree->count - 1], 0, 0)) - lift;
-}
-
 typedef struct build {
     hc_block_tree *tree;
     const float   *heights;
@@ -153,11 +147,13 @@ static void gather_row(void *context, int row, int worker)
     }
 }
 
+/* Differences of floats are exact where one is at most twice the other. */
 static void set_range(hc_block_tree *tree, range all)
 {
     const bool small = all.high - all.low < SMALL_RANGE;
-    tree->base       = small ? all.low : 0.0F;
-    tree->range      = small ? all.high - all.low : 1.0F;
+    const bool close = all.low >= 0.5F * all.high;
+    tree->base       = small && close ? all.low : 0.0F;
+    tree->range      = small ? all.high - tree->base : 1.0F;
 }
 
 static void build_levels(hc_block_tree *tree, const float *heights, int threads, hc_log *log)
@@ -178,7 +174,6 @@ static void build_levels(hc_block_tree *tree, const float *heights, int threads,
         (void)hc_parallel_for(level->rows, few ? 1 : threads, gather_row, &b, (hc_progress){ 0 },
                               log);
     }
-    find_top(tree);
 }
 
 hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, int height,
@@ -237,6 +232,5 @@ bool hc_tree_update(hc_block_tree *tree, const float *heights, hc_rect changed)
         right /= SIDE;
         bottom /= SIDE;
     }
-    find_top(tree);
     return within_range(tree, heights, changed);
 }

@@ -7,7 +7,7 @@
  * field hold HC_TREE_OUTSIDE, lower than any height.
  *
  * Maxima are kept minus `base`, so that comparing them keeps its precision when all heights of a
- * field lie close together. */
+ * field lie close together. Subtracting it is always exact. */
 #ifndef HC_BAKE_BLOCK_TREE_H
 #define HC_BAKE_BLOCK_TREE_H
 
@@ -25,8 +25,7 @@ typedef struct hc_block_tree {
     hc_tree_level levels[HC_TREE_LEVELS_MAX];
     int           count;
     int           width, height;
-    float base, range; /* lowest height, highest minus lowest; 0 and 1 unless the range is small */
-    float top;         /* highest height, minus base                                            */
+    float base, range; /* heights lie in base .. base + range; 0 and 1 unless all lie close */
     void *store;
 } hc_block_tree;
 

@@ -132,18 +132,25 @@ static void find_ratios(float *ratios, const float *found)
     }
 }
 
-/* All channels of `count` samples side by side. */
-static void write_channels(float *ratios, const hc_exact_plan *plan, float (*found)[TILE_SAMPLES],
-                           int first, int count)
+/* All channels of the tile's samples side by side. */
+static void find_channels(float *ratios, const hc_exact_plan *plan, float (*found)[TILE_SAMPLES])
 {
-    const int channels = hc_cones_channels(plan->cones);
-    for (int s = first; s < first + count; s++) {
-        float steepness[HC_ANISO_COUNT];
-        for (int i = 0; i < plan->count; i++) {
-            steepness[i] = found[i][s];
+    if (plan->cones == HC_CONES_ANISO) {
+        for (int s = 0; s < TILE_SAMPLES; s++) {
+            float steepness[HC_ANISO_COUNT];
+            for (int i = 0; i < HC_ANISO_COUNT; i++) {
+                steepness[i] = found[i][s];
+            }
+            hc_aniso_choose(ratios + 3 * s, steepness);
         }
-        hc_write_ratios(ratios, plan->cones, steepness);
-        ratios += channels;
+        return;
+    }
+    for (int i = 0; i < plan->count; i++) {
+        float plain[TILE_SAMPLES];
+        find_ratios(plain, found[i]);
+        for (int s = 0; s < TILE_SAMPLES; s++) {
+            ratios[s * plan->count + i] = plain[s];
+        }
     }
 }
 
@@ -155,23 +162,22 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
         plan->kernel(found[i], &plan->passes[i], tile_x, tile_y,
                      &plan->scratch[worker * plan->count + i]);
     }
+    float        tile[4 * TILE_SAMPLES];
     const size_t channels = (size_t)hc_cones_channels(plan->cones);
-    float        plain[TILE_SAMPLES];
     if (channels == 1) {
-        find_ratios(plain, found[0]);
+        find_ratios(tile, found[0]);
+    } else {
+        find_channels(tile, plan, found);
     }
-    const int x       = tile_x * HC_TILE_SIDE;
-    const int left    = plan->tree.width - x;
-    const int columns = left < HC_TILE_SIDE ? left : HC_TILE_SIDE;
+    const int    x       = tile_x * HC_TILE_SIDE;
+    const int    left    = plan->tree.width - x;
+    const size_t columns = (size_t)(left < HC_TILE_SIDE ? left : HC_TILE_SIDE);
     for (int r = 0; r < HC_TILE_SIDE && tile_y * HC_TILE_SIDE + r < plan->tree.height; r++) {
-        const size_t y  = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
-        float       *to = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
-        if (channels == 1) {
-            memcpy(to, plain + r * HC_TILE_SIDE, (size_t)columns * sizeof *to);
-        } else {
-            write_channels(to, plan, found, r * HC_TILE_SIDE, columns);
-        }
-        hc_limit_ratios(to, (size_t)columns * channels, plan->max_ratio);
+        const size_t y    = (size_t)tile_y * HC_TILE_SIDE + (size_t)r;
+        float       *to   = ratios + (y * (size_t)plan->tree.width + (size_t)x) * channels;
+        const float *from = tile + (size_t)r * HC_TILE_SIDE * channels;
+        memcpy(to, from, columns * channels * sizeof *to);
+        hc_limit_ratios(to, columns * channels, plan->max_ratio);
     }
 }
 

@@ -17,10 +17,11 @@ typedef struct lines {
 
 INLINE void draw_lines(const tile *t, int part, lines *l)
 {
-    const hc_v middle = hc_v_set(1.5F);
-    const hc_v slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
-    const hc_v rows   = hc_v_mul(slope, hc_v_set(t->aspect));
-    const hc_v margin = hc_v_set(t->pass->tree->range * 0x1p-19F);
+    const hc_v     middle = hc_v_set(1.5F);
+    const hc_v     slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
+    const hc_v     rows   = hc_v_mul(slope, hc_v_set(t->aspect));
+    const unsigned rising = hc_v_greater(slope, hc_v_set(0.0F)); /* level lines are exact */
+    const hc_v     margin = hc_v_keep(rising, hc_v_set(t->pass->tree->range * 0x1p-19F));
     hc_v_store(l->height, hc_v_sub(t->lifted[part], margin));
     hc_v_store(l->slope, slope);
     hc_v_store(l->lean_u, hc_v_mul(slope, hc_v_sub(middle, hc_v_load(COLUMN))));

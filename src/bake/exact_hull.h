@@ -14,9 +14,12 @@ INLINE envelope draw_envelope(const tile *t, int first, int parts)
     const hc_v           end     = hc_v_load(PIECE_ENDS + 1);
     const hc_v           most    = hc_v_set(2.0F * pass->tree->range); /* keeps chords precise */
     hc_v                 lows[4] = { most, most, most, most }; /* short chains: min takes a while */
+    hc_v                 level   = hc_v_set(ABOVE_ALL);
     for (int part = first; part < first + parts; part++) {
-        float heights[HC_LANES], rises[HC_LANES];
-        hc_v_store(heights, t->lifted[part]);
+        float          heights[HC_LANES], rises[HC_LANES];
+        const unsigned rising = hc_v_greater(t->T[part], hc_v_set(0.0F));
+        level = hc_v_min(hc_v_pick(rising, hc_v_set(ABOVE_ALL), t->lifted[part]), level);
+        hc_v_store(heights, hc_v_pick(rising, t->lifted[part], hc_v_set(ABOVE_ALL)));
         hc_v_store(rises, hc_v_mul(t->T[part], hc_v_set(pass->step_u)));
         for (int p = 0; p < HC_LANES; p++) {
             const hc_v line = hc_v_about_muladd(start, hc_v_set(rises[p]), hc_v_set(heights[p]));
@@ -30,6 +33,7 @@ INLINE envelope draw_envelope(const tile *t, int first, int parts)
     const hc_v high   = hc_v_load(least + 1);
     const hc_v margin = hc_v_set(pass->tree->range * 0x1p-19F);
     envelope   drawn;
+    drawn.level   = hc_v_lowest(level);
     drawn.slopes  = hc_v_div(hc_v_sub(high, low), hc_v_sub(end, start));
     drawn.offsets = hc_v_sub(hc_v_sub(low, hc_v_mul(drawn.slopes, start)), margin);
     return drawn;
@@ -48,7 +52,7 @@ INLINE unsigned promising(kind k, const tile *t, const envelope *hull, int viewe
     const hc_v bound =
         hc_v_about_line(hull->offsets, hull->slopes, k.diamond ? size : hc_v_about_sqrt(size),
                         PIECE_SHIFT, PIECE_FIRST);
-    unsigned found = hc_v_greater(tops, bound);
+    unsigned found = hc_v_greater(tops, hc_v_min(bound, hc_v_set(hull->level)));
     if (k.quadrant) {
         const hc_v beyond = hc_v_sub(zero, half);
         found &= ~hc_v_greater(beyond, hc_v_mul(across, hc_v_set((float)t->pass->sign_u)));

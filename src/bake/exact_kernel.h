@@ -34,6 +34,9 @@ INLINE void guess(kind k, tile *t)
 
 /* ---- the tree ---- */
 
+/* From as many waiting nodes on, guesses from them pay. */
+enum { GUESSING_NODES = 24 };
+
 INLINE void list_children(hc_node_list *list, unsigned found, int x, int y, const float *entries)
 {
     const int at = list->count;
@@ -48,6 +51,67 @@ INLINE unsigned near_lanes(const tile *t, hc_v across, hc_v down)
 {
     const hc_v reach = hc_v_set(((t->x | t->y) & 3) == 0 ? HC_NEAR_REACH - 1.0F : -1.0F);
     return hc_v_greater(reach, hc_v_max(hc_v_abs(across), hc_v_abs(down)));
+}
+
+/* Nodes that lie in the quadrant of all samples of the tile, by the offsets of their middles. */
+INLINE unsigned sure_lanes(kind k, const tile *t, hc_v across, hc_v down, float half)
+{
+    if (!k.quadrant) {
+        return 0xFFFFU;
+    }
+    const hc_v apart = hc_v_set(half + MIDDLE);
+    return ~(hc_v_greater(apart, hc_v_mul(across, hc_v_set((float)t->pass->sign_u)))
+             | hc_v_greater(apart, hc_v_mul(down, hc_v_set((float)t->pass->sign_v))))
+           & 0xFFFFU;
+}
+
+/* Middles of nodes, as seen from the tile's, and their highest samples. */
+typedef struct node_places {
+    float across[HC_LIST_ROOM], down[HC_LIST_ROOM], top[HC_LIST_ROOM];
+} node_places;
+
+/* A node's highest sample is no farther away than its farthest corner: its steepness there is a
+ * threshold. */
+INLINE void guess_from_places(kind k, tile *t, int part, const node_places *from, int count,
+                              float half)
+{
+    const hc_v aspect  = hc_v_set(t->aspect);
+    const hc_v halves  = hc_v_set(half);
+    const hc_v columns = hc_v_add(hc_v_load(COLUMN), hc_v_set((float)(4 * (part & 1)) - MIDDLE));
+    const hc_v rows    = hc_v_add(hc_v_load(ROW), hc_v_set((float)(4 * (part >> 1)) - MIDDLE));
+    hc_v       best    = hc_v_set(0.0F);
+    for (int i = 0; i < count; i++) {
+        const hc_v across = hc_v_abs(hc_v_sub(hc_v_set(from->across[i]), columns));
+        const hc_v down   = hc_v_abs(hc_v_sub(hc_v_set(from->down[i]), rows));
+        const hc_v size =
+            measure(k, hc_v_add(across, halves), hc_v_mul(hc_v_add(down, halves), aspect));
+        const hc_v rise = hc_v_sub(hc_v_set(from->top[i]), t->lifted[part]);
+        best            = hc_v_max(hc_v_mul(rise, hc_v_about_over(hc_v_set(1.0F), size)), best);
+    }
+    t->T[part] = hc_v_max(hc_v_mul(best, hc_v_set(LOWER / t->pass->step_u)), t->T[part]);
+}
+
+INLINE void guess_from_nodes(kind k, tile *t, int level, const hc_node_list *list)
+{
+    const float side  = (float)(4 << (2 * level));
+    const float half  = 0.5F * (side - 1.0F);
+    int         count = 0;
+    node_places from;
+    for (int first = 0; first < list->count; first += HC_LANES) {
+        const hc_v     across = hc_v_about_muladd(hc_v_from_ints(list->x + first), hc_v_set(side),
+                                                  hc_v_set(half - (float)t->x - MIDDLE));
+        const hc_v     down   = hc_v_about_muladd(hc_v_from_ints(list->y + first), hc_v_set(side),
+                                                  hc_v_set(half - (float)t->y - MIDDLE));
+        const unsigned sure =
+            sure_lanes(k, t, across, down, half) & lanes_left(list->count - first);
+        (void)hc_pack_v(from.across + count, sure, across);
+        (void)hc_pack_v(from.down + count, sure, down);
+        count += hc_pack_v(from.top + count, sure, hc_v_load(list->top + first));
+    }
+    for (int part = 0; part < HC_TILE_PARTS; part++) {
+        guess_from_places(k, t, part, &from, count, half);
+    }
+    t->stale = true;
 }
 
 /* Search the waiting nodes of one level, from number `done` on, while the list below has room:
@@ -100,6 +164,9 @@ INLINE void search_tree(kind k, tile *t)
         }
         hc_node_list *list  = &lists[level];
         hc_node_list *below = &lists[level - 1];
+        if (k.diamond && done[level] == 0 && list->count >= GUESSING_NODES) {
+            guess_from_nodes(k, t, level, list);
+        }
         if (t->stale && done[level] < list->count) {
             t->hull  = draw_envelope(t, 0, HC_TILE_PARTS);
             t->stale = false;
@@ -139,12 +206,7 @@ INLINE void begin_tile(kind k, tile *t, int tile_x, int tile_y)
                 hc_v_keep(~outside & 0xFFFFU, hc_v_load(around->steepness[tile_x % 2][part]));
             raise_threshold(t, part);
         }
-        /* Nothing limits the highest samples. Level lines at the top of the envelope would keep all
-         * others that are as high promising. */
-        const hc_v     lifted = hc_v_sub(t->height[part], hc_v_set(tree->base));
-        const unsigned lower  = hc_v_greater(hc_v_set(tree->top), lifted);
-        t->lifted[part] =
-            hc_v_add(hc_v_keep(lower, lifted), hc_v_keep(~lower & 0xFFFFU, hc_v_set(ABOVE_ALL)));
+        t->lifted[part] = hc_v_sub(t->height[part], hc_v_set(tree->base));
     }
 }
 

@@ -110,21 +110,31 @@ INLINE unsigned guess_from_all(kind k, tile *t, unsigned guesses)
     return raised;
 }
 
+/* Bits of the recent limits that are this sample. */
+INLINE unsigned find_recent(const hc_exact_scratch *scratch, int x, int y)
+{
+    unsigned others = 0;
+    for (int i = 0; i < HC_RECENT; i += HC_LANES) {
+        const hc_v across = hc_v_sub(hc_v_load(scratch->recent_x + i), hc_v_set((float)x));
+        const hc_v down   = hc_v_sub(hc_v_load(scratch->recent_y + i), hc_v_set((float)y));
+        const hc_v apart  = hc_v_add(hc_v_abs(across), hc_v_abs(down));
+        others |= hc_v_greater(apart, hc_v_set(0.0F)) << i;
+    }
+    return ~others;
+}
+
 /* First in, first out; but one that limits again when its turn has come stays. */
 static void remember(hc_exact_scratch *scratch, int x, int y, float height)
 {
-    int known = -1;
-    for (int i = 0; i < HC_RECENT; i++) {
-        known = scratch->recent_x[i] == (float)x && scratch->recent_y[i] == (float)y ? i : known;
-    }
-    const int oldest = (int)(scratch->recent_next % HC_RECENT);
-    if (known < 0) {
+    const unsigned known  = find_recent(scratch, x, y);
+    const unsigned oldest = scratch->recent_next % HC_RECENT;
+    if (known == 0) {
         scratch->recent_x[oldest]      = (float)x;
         scratch->recent_y[oldest]      = (float)y;
         scratch->recent_height[oldest] = height;
         scratch->recent_useful |= 1U << oldest;
     }
-    scratch->recent_next += known < 0 || known == oldest;
+    scratch->recent_next += known == 0 || (known >> oldest & 1U) != 0;
 }
 
 #endif

@@ -27,9 +27,12 @@ static const float PIECE_ENDS[17] = { 0x0p0F,  0x1p0F,  0x1p1F,  0x1p2F,  0x1p3F
                                       0x1p5F,  0x1p6F,  0x1p7F,  0x1p8F,  0x1p9F, 0x1p10F,
                                       0x1p11F, 0x1p12F, 0x1p13F, 0x1p14F, 0x1p40F };
 
-/* A lower bound of height(p) + T(p) * distance for all p of a set of samples, piecewise linear. */
+/* A lower bound of height(p) + T(p) * distance for all p of a set of samples: piecewise linear for
+ * those with T > 0, and `level`, the lowest of those with T = 0, which is exact: as high is not
+ * higher. */
 typedef struct envelope {
-    hc_v offsets, slopes;
+    hc_v  offsets, slopes;
+    float level;
 } envelope;
 
 typedef struct tile {
