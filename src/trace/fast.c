@@ -23,7 +23,7 @@ enum { COARSEST = 6, PAGE = 1 << 21 };
 enum { FIRST_LEVEL = 1 };
 
 typedef struct layout {
-    size_t heights, blocks; /* elements */
+    size_t heights, blocks, towers; /* elements, and words */
 } layout;
 
 static hc_fast_axis make_axis(int samples, double period, bool wrapped, bool posts,
@@ -96,7 +96,7 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
-                     blocks };
+                     blocks, hc_fast_plan_towers(fast) };
 }
 
 static size_t unit_of(size_t bytes)
@@ -132,12 +132,18 @@ static float highest_of(const hc_field *field)
     return most;
 }
 
+/* Towers stand behind the blocks, where the last page has room for most of them. */
+static size_t block_bytes(const layout *sizes)
+{
+    return sizes->blocks * sizeof(hc_fast_block) + sizes->towers * sizeof(uint32_t);
+}
+
 size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
 {
     hc_fast      fast;
     const layout sizes = plan(&fast, field, options);
     return sizeof fast + whole_units(sizes.heights * sizeof(float))
-           + whole_units(sizes.blocks * sizeof(hc_fast_block));
+           + whole_units(block_bytes(&sizes));
 }
 
 hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
@@ -152,10 +158,11 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     made->isa          = hc_isa_resolve(options->isa);
     made->highest      = (double)highest_of(field);
     made->heights      = take(sizes.heights * sizeof(float));
-    made->blocks       = take(sizes.blocks * sizeof(hc_fast_block));
-    hc_result result   = made->heights != NULL && made->blocks != NULL
-                             ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)
-                             : hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
+    made->blocks       = take(block_bytes(&sizes));
+    hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
+    hc_result result = made->heights != NULL && made->blocks != NULL
+                           ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)
+                           : hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
     if (result != HC_OK) {
         hc_fast_destroy(made);
         return result;

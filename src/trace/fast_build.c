@@ -526,6 +526,9 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     if (b->sparse && !see_edges(b, threads, log)) {
         return false;
     }
+    if (b->sparse && !fast->x.wrapped && !fast->y.wrapped && !fast->open_sides) {
+        hc_fast_list_towers(fast);
+    }
     for (int k = b->sparse ? 0 : 1; k < fast->levels; k++) {
         (void)run(b, k, block_row, b->levels[k].height, threads, log);
     }

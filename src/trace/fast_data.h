@@ -24,6 +24,9 @@ enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 1 };
  * side. */
 enum { HC_FAST_SPARSE_SHIFT = 23, HC_FAST_SPARSE_BIAS = 116 << 23, HC_FAST_FREE_BITS = 4 };
 
+/* Towers are listed by bins of so many cells a side. */
+enum { HC_FAST_BIN = 64 };
+
 /* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,
  * -u +v, +u -v, -u -v), within which the surface beyond the block stays below a cone around it. */
 typedef struct hc_fast_block {
@@ -41,6 +44,19 @@ typedef struct hc_fast_axis {
     double scale, shift; /* coordinate = scale * (ray's) + shift   */
     double step, zero;   /* (u or v) = step * (coordinate - zero)  */
 } hc_fast_axis;
+
+/* What is higher than the floor of sparse ground: boxes that hold the corners next to each other
+ * that are, by their middles and wider sides in half cells, and their heights above the floor.
+ * Those that a ray over bin i may meet are bins[i] .. bins[i + 1] - 1; around the field stands a
+ * frame of bins, row by row. */
+typedef struct hc_fast_towers {
+    bool      listed; /* they are few, nothing repeats, no side is open */
+    float     floor;  /* and what marching keeps above it               */
+    int       bins_x, bins_y;
+    uint32_t  most; /* entries */
+    uint32_t *bins;
+    float    *x, *y, *size, *rise;
+} hc_fast_towers;
 
 struct hc_fast {
     const hc_tracer *tracer; /* that it is part of */
@@ -64,6 +80,8 @@ struct hc_fast {
     int            levels, first_level;   /* where marching begins            */
     int32_t        stride[16], start[16]; /* of levels; 16 for one vector register */
     hc_fast_block *blocks;
+
+    hc_fast_towers towers;
 };
 
 /* Cells along a side of a level's blocks, and blocks along an axis without the one more. */
@@ -122,6 +140,11 @@ static inline double hc_fast_run(const hc_fast_ray *r)
 
 /* Fill heights and blocks. */
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log);
+
+/* The room that towers take, in words; what they make of it; list them. */
+size_t hc_fast_plan_towers(hc_fast *fast);
+void   hc_fast_place_towers(hc_fast *fast, uint32_t *room);
+void   hc_fast_list_towers(hc_fast *fast);
 
 typedef enum hc_fast_fate { HC_FAST_MISSES, HC_FAST_HITS, HC_FAST_MARCHES } hc_fast_fate;
 

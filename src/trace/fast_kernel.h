@@ -20,6 +20,7 @@ static void load_group(job *j, pack *p)
     p->ray             = g->ray;
     memcpy(p->from, g->b.from, sizeof p->from);
     hc_v_store(p->s, hc_v_keep(g->lanes, hc_v_max(ahead, hc_v_set(0.0F))));
+    hc_v_store(p->again, hc_v_set(-1.0F));
     hc_i_store(p->level, hc_i_set(j->beams.level[k]));
     p->active = g->lanes;
     p->group  = g;
@@ -66,6 +67,7 @@ static void refill(job *j, pack *p, unsigned idle)
             hc_spread_doubles(p->next, lanes, j->queue_next + j->next);
         }
         hc_v_store(p->s, hc_v_pick(lanes, hc_v_set(0.0F), hc_v_load(p->s)));
+        hc_v_store(p->again, hc_v_pick(lanes, hc_v_set(-1.0F), hc_v_load(p->again)));
         hc_i_store(p->level, hc_i_pick(lanes, hc_i_set(j->fast->first_level), hc_i_load(p->level)));
         j->next += __builtin_popcount(lanes);
         p->active |= lanes;
@@ -327,8 +329,21 @@ static void see_near(job *j, pack *p)
 
 /* ---- all together ---------------------------------------------------------------------------- */
 
+/* Lanes that have just begun, or have come past what stopped them. */
+static inline void glide_on(job *j, pack *p)
+{
+    const unsigned past = hc_v_greater(hc_v_load(p->s), hc_v_load(p->again));
+    const unsigned off  = past & p->active & ~p->held & ~p->near;
+    if (off != 0) {
+        glide(j->fast, &p->ray, p->s, p->again, off);
+    }
+}
+
 static inline void see_to(job *j, pack *p)
 {
+    if (j->fast->towers.listed) {
+        glide_on(j, p);
+    }
     const hc_v     end   = hc_v_load(p->ray.end);
     const unsigned ended = p->active & ~p->held & ~hc_v_greater(end, hc_v_load(p->s));
     if (ended != 0) {

@@ -34,6 +34,7 @@ typedef struct pack {
     double   from[HC_LANES], next[HC_LANES]; /* t at the segment's start and end */
     float    s[HC_LANES];
     float    until[HC_LANES]; /* s at which a near lane leaves its block */
+    float    again[HC_LANES]; /* s from which on a lane may glide        */
     int32_t  level[HC_LANES];
     unsigned active; /* lanes with a ray                        */
     unsigned near;   /* of them: waiting on a cell to be looked at */

@@ -7,6 +7,7 @@
 
 #include "fast_beams.h"
 #include "fast_decide.h"
+#include "fast_towers.h"
 
 #include <math.h>
 
@@ -303,7 +304,8 @@ static void clear_lanes(runners *q, unsigned lanes)
     }
 }
 
-/* Make a group's rays a beam, if they can be one. Lanes without a beam are computed too. */
+/* Make a group's rays a beam, if they can be one; over sparse ground they glide instead. Lanes
+ * without a beam are computed too. */
 static bool join_group(job *j, group *g)
 {
     if (__builtin_popcount(g->lanes) < BEAM_RAYS || !go_together(g->s, j->fast, &g->b, g->lanes)) {
@@ -312,13 +314,50 @@ static bool join_group(job *j, group *g)
     if (j->group_count == 0) {
         memset(&j->beams, 0, sizeof j->beams);
     }
-    if (!join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
+    if (j->fast->sparse) {
+        memset(g->s, 0, sizeof g->s); /* each from its own beginning */
+    } else if (!join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
         return false;
     }
     clear_lanes(&g->ray, g->lanes);
     j->used |= 1U << (g - j->groups);
     j->waiting[j->group_count++] = g;
     return true;
+}
+
+/* Of rays that ask for any hit those that end in the air, or are below a tower that stops them: it
+ * stands two cells further for most. */
+static unsigned ask_towers(job *j, const runners *ray, unsigned lanes)
+{
+    runners q           = *ray;
+    float   s[HC_LANES] = { 0.0F };
+    float   again[HC_LANES];
+    memset(again, 0, sizeof again);
+    glide(j->fast, &q, s, again, lanes);
+    const hc_v     end    = hc_v_load(q.end);
+    const hc_v     stop   = hc_v_load(s);
+    const hc_v     under  = hc_v_add(stop, hc_v_set(2.0F));
+    const hc_v     over   = hc_v_sub(end, hc_v_set(4.0F * j->fast->blur));
+    const unsigned on     = lanes & hc_v_greater(end, stop);
+    const unsigned before = on & hc_v_greater(over, under);
+    const hc_v     gap    = gap_after(j->fast, &q, under, before);
+    const unsigned below  = before & hc_v_greater(hc_v_set(-j->fast->slack), gap);
+    for (unsigned rest = lanes & ~on; rest != 0; rest &= rest - 1) {
+        j->answer.any[q.which[__builtin_ctz(rest)]] = 0;
+    }
+    answer_any(j, q.which, below);
+    return below | (lanes & ~on);
+}
+
+/* Rays that ask for any hit and have their answer at once. */
+static unsigned answer_at_once(job *j, const runners *ray, unsigned lanes)
+{
+    if (j->fast->towers.listed) {
+        return ask_towers(j, ray, lanes);
+    }
+    const unsigned sure = j->fast->sparse ? 0 : probe(j->fast, ray, lanes);
+    answer_any(j, ray->which, sure);
+    return sure;
 }
 
 /* A batch: the rays that are to be marched, others are answered. Of rays that ask for any hit those
@@ -330,9 +369,7 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     const bool     any     = j->answer.any != NULL;
     turn_batch(&g->ray, j->fast, b);
     memcpy(g->ray.which, which, sizeof g->ray.which);
-    const unsigned sure = any && !j->fast->sparse ? probe(j->fast, &g->ray, marched) : 0;
-    answer_any(j, which, sure);
-    g->lanes = marched & ~sure;
+    g->lanes = marched & ~(any ? answer_at_once(j, &g->ray, marched) : 0);
     if (g->lanes != 0 && (any || !join_group(j, g))) {
         enqueue_group(j, g);
     }
@@ -363,9 +400,8 @@ static void take_new(job *j)
             enqueue_one_by_one(j, &g->b, which, all);
         }
     }
-    if (j->group_count > 0) {
-        march_beams(j->fast, &j->beams, j->group_count,
-                    j->fast->sparse ? GROUND_SPARSE : GROUND_PATCHES);
+    if (j->group_count > 0 && !j->fast->sparse) {
+        march_beams(j->fast, &j->beams, j->group_count);
     }
 }
 

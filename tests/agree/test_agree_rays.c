@@ -2,6 +2,7 @@
  * The first argument multiplies the number of rays. */
 #include "rays.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -110,6 +111,56 @@ static void placed_fields(void **state)
     check_scores();
 }
 
+/* Towers of one to six samples, some next to each other, on a floor that is flat or has holes. */
+static void raise_towers(float *heights, int width, int height, bool holes, uint64_t *random)
+{
+    for (int i = 0; i < width * height; i++) {
+        heights[i] = holes && agree_range(random, 0, 9) > 0 ? 0.125F : 0.0F;
+    }
+    for (int i = 0; i < width * height / 300; i++) {
+        const int   left = agree_range(random, 0, width - 1);
+        const int   top  = agree_range(random, 0, height - 1);
+        const int   wide = agree_range(random, 0, 3) == 0 ? agree_range(random, 1, 3) : 1;
+        const int   high = agree_range(random, 0, 3) == 0 ? 2 : 1;
+        const float rise = 0.25F + 0.75F * (float)agree_uniform(random);
+        for (int k = 0; k < wide * high; k++) {
+            const int x = left + k % wide;
+            const int y = top + k / wide;
+            if (x < width && y < height) {
+                heights[y * width + x] = agree_range(random, 0, 1) == 0 ? rise : 0.5F * rise;
+            }
+        }
+    }
+}
+
+static bool is_sparse(const hc_field *field)
+{
+    hc_tracer   *tracer;
+    hc_block_map map;
+    assert_int_equal(hc_tracer_create(&tracer, field, NULL, NULL), HC_OK);
+    assert_true(hc_tracer_block_map(tracer, &map, NULL));
+    hc_tracer_destroy(tracer);
+    return map.sparse;
+}
+
+static void towers(void **state)
+{
+    enum { WIDTH = 200, HEIGHT = 131 };
+    static float heights[WIDTH * HEIGHT];
+    (void)state;
+    uint64_t random = 25;
+    for (int i = 0; i < 8; i++) {
+        const hc_field field = { .width        = i % 4 < 2 ? WIDTH : HEIGHT,
+                                 .height       = i % 4 < 2 ? HEIGHT : WIDTH,
+                                 .registration = i % 3 == 0 ? HC_GRID : HC_TEXEL,
+                                 .heights      = heights };
+        raise_towers(heights, field.width, field.height, i % 2 == 1, &random);
+        assert_true(is_sparse(&field));
+        fire_all(&field, "towers", &(hc_trace_options){ .threads = 1 }, HC_CONES_L1, 60, &random);
+    }
+    check_scores();
+}
+
 int main(int argc, char **argv)
 {
     times                           = argc > 1 ? (size_t)strtoul(argv[1], NULL, 10) : 1;
@@ -118,6 +169,7 @@ int main(int argc, char **argv)
         cmocka_unit_test(hard_fields_steps),
         cmocka_unit_test(made_fields_and_elevations),
         cmocka_unit_test(placed_fields),
+        cmocka_unit_test(towers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
