@@ -5,8 +5,9 @@
  *                    case
  * hc_spread_words    lanes[i] = from[k] for the k-th set bit i; may read HC_LANES words in any case
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
- * hc_rows            the reverse: rows[i] of eight words each from columns[k][i]
- * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i] */
+ * hc_rows            the reverse: word k of the eight words at rows[i] from word i of columns[k]
+ * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i]
+ * hc_highest_of      highest[k] of all lanes of rows[k], for as many rows as there are lanes */
 #ifndef HC_BASE_LANES_H
 #define HC_BASE_LANES_H
 
@@ -87,8 +88,7 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
 }
 
 /* Eight columns of eight lanes turned into rows: transposed 8 x 8, in registers of two rows. */
-static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
-                           const float columns[HC_ROW_WORDS][HC_LANES])
+static inline void hc_rows(void *const rows[HC_LANES], const void *const columns[HC_ROW_WORDS])
 {
     __m512 a[4];
     __m512 b[4];
@@ -108,15 +108,44 @@ static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
         to[3]           = _mm512_shuffle_ps(f, h, 0xee);
     }
     for (int i = 0; i < 4; i++) {
-        _mm_storeu_ps(rows[i], _mm512_castps512_ps128(a[i]));
-        _mm_storeu_ps(rows[i] + 4, _mm512_castps512_ps128(b[i]));
-        _mm_storeu_ps(rows[i + 4], _mm512_extractf32x4_ps(a[i], 1));
-        _mm_storeu_ps(rows[i + 4] + 4, _mm512_extractf32x4_ps(b[i], 1));
-        _mm_storeu_ps(rows[i + 8], _mm512_extractf32x4_ps(a[i], 2));
-        _mm_storeu_ps(rows[i + 8] + 4, _mm512_extractf32x4_ps(b[i], 2));
-        _mm_storeu_ps(rows[i + 12], _mm512_extractf32x4_ps(a[i], 3));
-        _mm_storeu_ps(rows[i + 12] + 4, _mm512_extractf32x4_ps(b[i], 3));
+        _mm_storeu_ps((float *)rows[i], _mm512_castps512_ps128(a[i]));
+        _mm_storeu_ps((float *)rows[i] + 4, _mm512_castps512_ps128(b[i]));
+        _mm_storeu_ps((float *)rows[i + 4], _mm512_extractf32x4_ps(a[i], 1));
+        _mm_storeu_ps((float *)rows[i + 4] + 4, _mm512_extractf32x4_ps(b[i], 1));
+        _mm_storeu_ps((float *)rows[i + 8], _mm512_extractf32x4_ps(a[i], 2));
+        _mm_storeu_ps((float *)rows[i + 8] + 4, _mm512_extractf32x4_ps(b[i], 2));
+        _mm_storeu_ps((float *)rows[i + 12], _mm512_extractf32x4_ps(a[i], 3));
+        _mm_storeu_ps((float *)rows[i + 12] + 4, _mm512_extractf32x4_ps(b[i], 3));
     }
+}
+
+/* Of two registers that hold rows by turns, each folded once more, a quarter at a time. */
+static inline __m512 hc_fold(__m512 a, __m512 b)
+{
+    return _mm512_max_ps(_mm512_shuffle_ps(a, b, 0x44), _mm512_shuffle_ps(a, b, 0xee));
+}
+
+static inline __m512 hc_fold_quarters(__m512 a, __m512 b)
+{
+    return _mm512_max_ps(_mm512_shuffle_f32x4(a, b, 0x88), _mm512_shuffle_f32x4(a, b, 0xdd));
+}
+
+static inline void hc_highest_of(float highest[HC_LANES], const hc_v rows[HC_LANES])
+{
+    __m512 two[8];
+    __m512 four[4];
+    for (int k = 0; k < 8;
+         k++) { /* words of each quarter: of the first, the second, the first... */
+        const __m512 low  = _mm512_unpacklo_ps(rows[2 * k], rows[2 * k + 1]);
+        const __m512 high = _mm512_unpackhi_ps(rows[2 * k], rows[2 * k + 1]);
+        two[k]            = _mm512_max_ps(low, high);
+    }
+    for (int k = 0; k < 4; k++) {
+        four[k] = hc_fold(two[2 * k], two[2 * k + 1]);
+    }
+    const __m512 low  = hc_fold_quarters(four[0], four[1]);
+    const __m512 high = hc_fold_quarters(four[2], four[3]);
+    _mm512_storeu_ps(highest, hc_fold_quarters(low, high));
 }
 
 #elif defined(HC_SIMD_AVX2)
@@ -182,17 +211,16 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
     }
 }
 
-static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
-                           const float columns[HC_ROW_WORDS][HC_LANES])
+static inline void hc_rows(void *const rows[HC_LANES], const void *const columns[HC_ROW_WORDS])
 {
     for (int half = 0; half < HC_LANES; half += 8) {
         __m256 r[8];
         for (int k = 0; k < 8; k++) {
-            r[k] = _mm256_loadu_ps(columns[k] + half);
+            r[k] = _mm256_loadu_ps((const float *)columns[k] + half);
         }
         hc_turn8(r);
         for (int i = 0; i < 8; i++) {
-            _mm256_storeu_ps(rows[half + i], r[i]);
+            _mm256_storeu_ps((float *)rows[half + i], r[i]);
         }
     }
 }
@@ -200,6 +228,13 @@ static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
 #endif
 
 #if !defined(HC_SIMD_AVX512)
+
+static inline void hc_highest_of(float highest[HC_LANES], const hc_v rows[HC_LANES])
+{
+    for (int k = 0; k < HC_LANES; k++) {
+        highest[k] = hc_v_highest(rows[k]);
+    }
+}
 
 #define HC_MOVE_LANES(pack, spread, type, size)                                                    \
     static inline void pack(type *to, unsigned lanes, const type *from)                            \
@@ -236,12 +271,11 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
     }
 }
 
-static inline void hc_rows(float       rows[HC_LANES][HC_ROW_WORDS],
-                           const float columns[HC_ROW_WORDS][HC_LANES])
+static inline void hc_rows(void *const rows[HC_LANES], const void *const columns[HC_ROW_WORDS])
 {
     for (int i = 0; i < HC_LANES; i++) {
         for (int k = 0; k < HC_ROW_WORDS; k++) {
-            memcpy(&rows[i][k], &columns[k][i], sizeof rows[i][k]);
+            memcpy((float *)rows[i] + k, (const float *)columns[k] + i, sizeof(float));
         }
     }
 }

@@ -14,7 +14,7 @@
 /* Sixteen new rays, in lanes as far as they are to be marched. */
 struct group {
     batch    b;
-    runners  ray;
+    pack     p;
     float    s[HC_LANES]; /* of the beam, where rays begin */
     unsigned lanes;
 };
@@ -34,59 +34,75 @@ enum { BEAM_RAYS = 8 };
 static const float BEAM_WIDTH = 32.0F;
 static const float BEAM_ANGLE = 0.125F;
 
-/* Lanes outside `lanes` like one of those inside. */
-static inline hc_v fill_lanes(unsigned lanes, const float *values)
-{
-    return hc_v_pick(lanes, hc_v_load(values), hc_v_set(values[__builtin_ctz(lanes)]));
-}
+/* What a beam's box is made of: where the rays would be at the beam's beginning, how fast they go,
+ * and s where they begin and end. */
+enum { AT_X, AT_Y, AT_Z, RATE_X, RATE_Y, RATE_Z, BEGIN, END, BOX };
 
-static inline void span_of(float *low, float *high, unsigned lanes, const float *values)
-{
-    const hc_v v = fill_lanes(lanes, values);
-    *low         = hc_v_lowest(v);
-    *high        = hc_v_highest(v);
-}
-
-/* Where rays would be at the beam's beginning. */
-static inline void go_back(float *at, const group *g, const float *from, const float *rate)
+static inline hc_v go_back(const group *g, const float *from, hc_v rate)
 {
     const hc_v s = hc_v_sub(hc_v_set(0.0F), hc_v_load(g->s));
-    hc_v_store(at, hc_v_about_muladd(s, hc_v_load(rate), hc_v_load(from)));
+    return hc_v_about_muladd(s, rate, hc_v_load(from));
 }
 
-/* Make beam k of a group. False if its rays are too far apart, or begin so high that rounding would
- * lose more of their heights than of those in the field. */
-static inline bool join_beam(beams *b, int k, const group *g, int first_level)
+static inline void find_box(float low[BOX], float high[BOX], const group *g)
 {
-    const runners *const q       = &g->ray;
-    const float *const   from[2] = { q->x, q->y };
-    const float *const   rate[2] = { q->dx, q->dy };
-    const int            one     = __builtin_ctz(g->lanes);
-    float                at[HC_LANES];
-    float                unused, highest;
-    for (int i = 0; i < 2; i++) {
-        go_back(at, g, from[i], rate[i]);
-        span_of(&b->low[i][k], &b->high[i][k], g->lanes, at);
-        span_of(&b->low_rate[i][k], &b->high_rate[i][k], g->lanes, rate[i]);
-        if (!(b->high[i][k] - b->low[i][k] <= BEAM_WIDTH)
-            || !(b->high_rate[i][k] - b->low_rate[i][k] <= BEAM_ANGLE)) {
-            return false;
-        }
-        const bool  up   = rate[i][one] > 0.0F;
-        const float fast = up ? b->high_rate[i][k] : -b->low_rate[i][k];
-        const float over = 1.0F / (fast > 0x1p-60F ? fast : 0x1p-60F);
-        b->over[i][k]    = up ? over : -over;
-        b->ahead[i][k]   = up;
+    const runners *const q            = &g->p.ray;
+    const hc_v           s            = hc_v_load(g->s);
+    const hc_v           dx           = hc_v_load(q->dx);
+    const hc_v           dy           = hc_v_load(q->dy);
+    const hc_v           dz           = hc_v_load(q->dz);
+    const hc_v           of_rays[BOX] = {
+                  go_back(g, q->x, dx),          go_back(g, q->y, dy), go_back(g, q->z, dz), dx, dy, dz, s,
+                  hc_v_add(hc_v_load(q->end), s)
+    };
+    const hc_v least = hc_v_set(-INFINITY);
+    hc_v       rows[2 * BOX];
+    float      highest[2 * BOX];
+    for (int k = 0; k < BOX; k++) {
+        rows[k]       = hc_v_pick(g->lanes, of_rays[k], least);
+        rows[BOX + k] = hc_v_pick(g->lanes, hc_v_sub(hc_v_set(0.0F), of_rays[k]), least);
     }
-    go_back(at, g, q->z, q->dz);
-    span_of(&b->z[k], &highest, g->lanes, at);
-    span_of(&b->dz[k], &unused, g->lanes, q->dz);
-    hc_v_store(at, hc_v_add(hc_v_load(q->end), hc_v_load(g->s)));
-    span_of(&unused, &b->end[k], g->lanes, at);
-    span_of(&b->s[k], &unused, g->lanes, g->s);
-    b->quadrant[k] = q->quadrant[one];
-    b->level[k]    = first_level;
-    return highest <= 2.0F;
+    hc_highest_of(highest, rows);
+    for (int k = 0; k < BOX; k++) {
+        high[k] = highest[k];
+        low[k]  = -highest[BOX + k];
+    }
+}
+
+/* Beam k along an axis. False if its rays do not all go up, or all down, or are too far apart. */
+static inline bool join_axis(beams *b, int k, int axis, const float low[BOX], const float high[BOX])
+{
+    const int   at        = AT_X + axis;
+    const int   rate      = RATE_X + axis;
+    const bool  up        = low[rate] > 0.0F;
+    const float fastest   = up ? high[rate] : -low[rate];
+    const float over      = 1.0F / (fastest > 0x1p-60F ? fastest : 0x1p-60F);
+    b->low[axis][k]       = low[at];
+    b->high[axis][k]      = high[at];
+    b->low_rate[axis][k]  = low[rate];
+    b->high_rate[axis][k] = high[rate];
+    b->over[axis][k]      = up ? over : -over;
+    b->ahead[axis][k]     = up;
+    return (up || high[rate] < 0.0F) && high[at] - low[at] <= BEAM_WIDTH
+           && high[rate] - low[rate] <= BEAM_ANGLE;
+}
+
+/* Make beam k of a group. False if its rays are too far apart, or begin far from each other, or so
+ * high that rounding would lose more of their heights than of those in the field. */
+static inline bool join_beam(beams *b, int k, const group *g, const hc_fast *fast)
+{
+    float low[BOX];
+    float high[BOX];
+    find_box(low, high, g);
+    b->z[k]          = low[AT_Z];
+    b->dz[k]         = low[RATE_Z];
+    b->s[k]          = low[BEGIN];
+    b->end[k]        = high[END];
+    b->quadrant[k]   = g->p.ray.quadrant[__builtin_ctz(g->lanes)];
+    b->level[k]      = fast->first_level;
+    const float most = 0.0625F * (float)(fast->x.cells + fast->y.cells);
+    return join_axis(b, k, 0, low, high) && join_axis(b, k, 1, low, high) && high[AT_Z] <= 2.0F
+           && high[BEGIN] - low[BEGIN] <= most;
 }
 
 /* Along one axis: the blocks under the box, and s until its side ahead leaves its own. */

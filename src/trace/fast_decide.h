@@ -159,9 +159,8 @@ static inline void test_next(const hc_fast *fast, const batch *b, const question
 static inline void decide_cells(const hc_fast *fast, const batch *b, const question *c,
                                 unsigned lanes, verdict *v)
 {
-    test    first;
-    double  begin[HC_LANES];
-    int32_t any_open = 0;
+    test   first;
+    double begin[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
         begin[i] = c->from[i] * b->run[i] + (double)c->s[i];
     }
@@ -171,10 +170,7 @@ static inline void decide_cells(const hc_fast *fast, const batch *b, const quest
     memcpy(v->hit, first.hit, sizeof v->hit);
     memcpy(v->cell_x, c->cell_x, sizeof v->cell_x);
     memcpy(v->cell_y, c->cell_y, sizeof v->cell_y);
-    for (int i = 0; i < HC_LANES; i++) {
-        any_open |= first.open[i] & (int32_t)(lanes >> i);
-    }
-    if ((any_open & 1) != 0) {
+    if ((hc_i_differ(hc_i_load(first.open), hc_i_set(0)) & lanes) != 0) {
         test_next(fast, b, c, &first, v);
     }
     place_hits(v->u, &fast->x, b->origin[0], b->direction[0], v->t);

@@ -7,33 +7,48 @@
 #include "fast_queue.h"
 
 /* Lanes to gather before they are looked at together, and before they take new rays. */
-enum { NEAR_MIN = 6, NEAR_MIN_GROUP = 3, DONE_MIN = 4 };
+enum { NEAR_MIN = 6, DONE_MIN = 4 };
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
 
-/* Give a pack without rays those of a group, from where their beam has come to. */
-static void load_group(job *j, pack *p)
+/* Ask for sixteen of `count` items before they are needed. */
+static inline void ask_for(const void *items, size_t size, int32_t first, int32_t count)
 {
-    const int    k     = j->next_group++;
-    const group *g     = j->waiting[k];
-    const hc_v   ahead = hc_v_sub(hc_v_set(j->beams.s[k]), hc_v_load(g->s));
-    p->ray             = g->ray;
-    memcpy(p->from, g->b.from, sizeof p->from);
+    const int32_t end = count - first < HC_LANES ? count : first + HC_LANES;
+    for (size_t i = (size_t)first * size; i < (size_t)end * size; i += 64) {
+        __builtin_prefetch((const char *)items + i);
+    }
+}
+
+/* The next group's rays, from where their beam has come to. */
+static pack *load_group(job *j)
+{
+    const int  k     = j->next_group++;
+    group     *g     = j->waiting[k];
+    pack      *p     = &g->p;
+    const hc_v ahead = hc_v_sub(hc_v_set(j->beams.s[k]), hc_v_load(g->s));
     hc_v_store(p->s, hc_v_keep(g->lanes, hc_v_max(ahead, hc_v_set(0.0F))));
     hc_v_store(p->again, hc_v_set(-1.0F));
     hc_i_store(p->level, hc_i_set(j->beams.level[k]));
     p->active = g->lanes;
+    p->near   = 0;
+    p->held   = 0;
     p->group  = g;
     memset(p->cell_x, 0, sizeof p->cell_x); /* lanes that do not wait are looked at, too */
     memset(p->cell_y, 0, sizeof p->cell_y);
+    ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0], j->count);
+    ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES, j->count); /* after these groups */
+    return p;
 }
 
-/* Give lanes of a pack rays from the queue. */
-static void refill(job *j, pack *p, unsigned idle)
+/* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
+static void refill(job *j, int slot, unsigned idle)
 {
+    pack *p = j->packs[slot];
     if (p->group != NULL) {
         j->used &= ~(1U << (p->group - j->groups));
-        p->group = NULL;
+        p              = &j->own[slot];
+        j->packs[slot] = p;
     }
     while (idle != 0) {
         if (j->next == j->queued) {
@@ -43,7 +58,7 @@ static void refill(job *j, pack *p, unsigned idle)
                 enqueue_left(j);
             } else if (j->next_group < j->group_count) {
                 if (p->active == 0) {
-                    load_group(j, p);
+                    j->packs[slot] = load_group(j);
                 }
                 return;
             } else if (j->taken < j->count) {
@@ -121,27 +136,23 @@ static bool walk_cells(const job *j, const batch *b, int i, const leftover *from
 static void answer_hits(const job *j, const verdict *v, unsigned hits, const int32_t *which,
                         const int32_t *steps, const int32_t *crossings)
 {
-    float      columns[HC_ROW_WORDS][HC_LANES];
-    float      rows[HC_LANES][HC_ROW_WORDS]; /* hc_hit but for its last word */
-    const hc_i none = hc_i_set(0);
+    static const uint32_t flags[HC_LANES] = { 0 };
+    float                 t[HC_LANES];
+    int32_t               x[HC_LANES];
+    int32_t               y[HC_LANES];
+    hc_hit                other; /* of lanes that are not asked for */
+    hc_hit               *to[HC_LANES];
+    hc_hit *const         out = j->answer.hits;
     for (int i = 0; i < HC_LANES; i++) {
-        columns[0][i] = (float)v->t[i];
+        t[i]  = (float)v->t[i];
+        to[i] = (hits >> i & 1) != 0 ? &out[which[i]] : &other;
     }
-    memcpy(columns[1], v->u, sizeof columns[1]);
-    memcpy(columns[2], v->v, sizeof columns[2]);
-    memcpy(columns[3], v->height, sizeof columns[3]);
-    const hc_i x = hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first));
-    const hc_i y = hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first));
-    hc_v_store(columns[4], hc_v_of_bits(x));
-    hc_v_store(columns[5], hc_v_of_bits(y));
-    hc_v_store(columns[6], hc_v_of_bits(none)); /* flags */
-    memcpy(columns[7], steps, sizeof columns[7]);
-    hc_rows(rows, columns);
-    for (; hits != 0; hits &= hits - 1) {
-        const int i   = __builtin_ctz(hits);
-        hc_hit   *hit = &j->answer.hits[which[i]];
-        memcpy(hit, rows[i], sizeof rows[i]);
-        hit->crossings = (uint32_t)crossings[i];
+    hc_i_store(x, hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first)));
+    hc_i_store(y, hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first)));
+    const void *const columns[HC_ROW_WORDS] = { t, v->u, v->v, v->height, x, y, flags, steps };
+    hc_rows((void *const *)to, columns);
+    for (int i = 0; i < HC_LANES; i++) {
+        to[i]->crossings = (uint32_t)crossings[i];
     }
 }
 
@@ -165,7 +176,7 @@ static void settle(job *j, const batch *b, const verdict *v, int i)
     }
     const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
     if (c->lane[i] >= 0) {
-        pack          *p    = &j->packs[c->lane[i] / HC_LANES];
+        pack          *p    = &j->own[c->lane[i] / HC_LANES];
         const int      lane = c->lane[i] % HC_LANES;
         const unsigned bit  = 1U << lane;
         p->held &= ~bit;
@@ -217,7 +228,7 @@ static void decide(job *j)
         c->cell_x[i] = c->cell_x[0];
         c->cell_y[i] = c->cell_y[0];
     }
-    prepare(&b, j->fast, j->rays, c->which);
+    prepare_some(&b, j->fast, j->rays, c->which);
     if (j->plain) {
         const question what = { c->cell_x, c->cell_y, c->s, c->from };
         decide_cells(j->fast, &b, &what, ALL_LANES, &v);
@@ -236,7 +247,7 @@ static void decide(job *j)
 static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lanes, bool waits)
 {
     trials       *c     = &j->trials;
-    const int32_t first = (int32_t)(p - j->packs) * HC_LANES;
+    const int32_t first = (int32_t)(p - j->own) * HC_LANES;
     const int     n     = c->count;
     int32_t       lane[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
@@ -258,7 +269,7 @@ static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lane
 static void decide_group(job *j, pack *p)
 {
     const batch   *b    = &p->group->b;
-    const question what = { p->cell_x, p->cell_y, p->s, p->from };
+    const question what = { p->cell_x, p->cell_y, p->s, b->from };
     verdict        v;
     decide_cells(j->fast, b, &what, p->held, &v);
     unsigned       hits  = find_set(v.hit) & p->held;
@@ -266,7 +277,7 @@ static void decide_group(job *j, pack *p)
     answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings);
     for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
         const int      i    = __builtin_ctz(rest);
-        const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], p->from[i] };
+        const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], b->from[i] };
         hits |= (unsigned)walk_cells(j, b, i, &from, p->s[i], p->span[i]) << i;
     }
     const unsigned on    = p->held & ~hits;
@@ -339,8 +350,9 @@ static inline void glide_on(job *j, pack *p)
     }
 }
 
-static inline void see_to(job *j, pack *p)
+static inline void see_to(job *j, int slot)
 {
+    pack *p = j->packs[slot];
     if (j->fast->towers.listed) {
         glide_on(j, p);
     }
@@ -351,7 +363,7 @@ static inline void see_to(job *j, pack *p)
         end_segments(j, p, ended);
     }
     const unsigned ready  = p->active & ~p->held;
-    const int      enough = p->group != NULL ? NEAR_MIN_GROUP : NEAR_MIN;
+    const int      enough = p->group != NULL ? 1 : NEAR_MIN;
     if (__builtin_popcount(p->near) >= enough || (p->near != 0 && p->near == ready)) {
         see_near(j, p);
     }
@@ -360,7 +372,7 @@ static inline void see_to(job *j, pack *p)
     }
     const unsigned idle = ~p->active & ALL_LANES;
     if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN)) {
-        refill(j, p, idle);
+        refill(j, slot, idle);
     }
 }
 
@@ -371,7 +383,7 @@ static inline void march_all(job *j, ground kind)
     standing on[PACKS];
     unsigned ready[PACKS];
     for (int k = 0; k < PACKS; k++) {
-        const pack    *p      = &j->packs[k];
+        const pack    *p      = j->packs[k];
         const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
         ready[k]              = p->active & ~p->near & ~p->held & before;
         if (ready[k] != 0) { /* of a single ray's packs, one */
@@ -380,7 +392,7 @@ static inline void march_all(job *j, ground kind)
     }
     for (int k = 0; k < PACKS; k++) {
         if (ready[k] != 0) {
-            march(j->fast, &j->packs[k], ready[k], &on[k], kind);
+            march(j->fast, j->packs[k], ready[k], &on[k], kind);
         }
     }
 }
@@ -389,7 +401,7 @@ static unsigned busy_lanes(const job *j)
 {
     unsigned busy = 0;
     for (int k = 0; k < PACKS; k++) {
-        busy |= j->packs[k].active & ~j->packs[k].held;
+        busy |= j->packs[k]->active & ~j->packs[k]->held;
     }
     return busy;
 }
@@ -406,11 +418,12 @@ static void start(job *j)
     j->next_group   = 0;
     j->used         = 0;
     for (int k = 0; k < PACKS; k++) {
-        pack *p   = &j->packs[k];
-        p->active = 0;
-        p->near   = 0;
-        p->held   = 0;
-        p->group  = NULL;
+        pack *p     = &j->own[k];
+        j->packs[k] = p;
+        p->active   = 0;
+        p->near     = 0;
+        p->held     = 0;
+        p->group    = NULL;
         memset(p->level, 0, sizeof p->level);
         memset(p->ray.quadrant, 0, sizeof p->ray.quadrant);
     }
@@ -427,7 +440,7 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
     j.plain  = !fast->steps && !fast->open_sides && !fast->x.wrapped && !fast->y.wrapped;
     for (;;) {
         for (int k = 0; k < PACKS; k++) {
-            see_to(&j, &j.packs[k]);
+            see_to(&j, k);
         }
         if (busy_lanes(&j) == 0) {
             if (j.trials.count > 0) {

@@ -15,7 +15,7 @@
 enum { ALL_LANES = 0xffff, PACKS = 4, LEFT_MAX = (PACKS + 4) * HC_LANES };
 
 /* Rays that go less far, in cells, are walked at once: vertical ones above all. */
-static const double MARCH_FROM = 2.0;
+static const float MARCH_FROM = 2.0F;
 
 /* Rays to be marched on from t. */
 typedef struct leftover {
@@ -36,8 +36,9 @@ typedef struct job {
     trials         trials;
     leftover       left[LEFT_MAX];
     int            left_count;
-    pack           packs[PACKS];
-    group          groups[HC_LANES + PACKS]; /* of beams and in packs */
+    pack          *packs[PACKS]; /* those in lanes: `own`, or a group's */
+    pack           own[PACKS];
+    group          groups[HC_LANES + PACKS]; /* of beams and in lanes */
     unsigned       used;                     /* of the groups         */
     beams          beams;
     group         *waiting[HC_LANES]; /* whose beams have been marched */
@@ -161,7 +162,7 @@ static void go_on(job *j, const hc_fast_ray *r, double t, const leftover *from)
         const double  leave_x = leave_period(r, 0, &j->fast->x, t, &start[0]);
         const double  leave_y = leave_period(r, 1, &j->fast->y, t, &start[1]);
         const double  next    = fmin(r->to, fmin(leave_x, leave_y));
-        if ((next - t) * run >= MARCH_FROM) {
+        if ((next - t) * run > (double)MARCH_FROM) {
             const int k           = j->queued++;
             j->queue.which[k]     = from->which;
             j->queue.steps[k]     = from->steps;
@@ -189,7 +190,7 @@ static void enqueue_left(job *j)
     for (int i = 0; i < HC_LANES; i++) {
         which[i] = left[i < count ? i : 0].which;
     }
-    prepare(&b, j->fast, j->rays, which);
+    prepare_some(&b, j->fast, j->rays, which);
     for (int i = 0; i < count; i++) {
         hc_fast_ray r;
         (void)take_ray(&r, j->fast, &b, i, &j->rays[which[i]]);
@@ -212,39 +213,31 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
     }
 }
 
-/* Rays to be marched, others than those to be walked. */
-static unsigned find_marched(const batch *b)
+/* A batch along one axis. */
+static inline void turn_along(float *restrict at, float *restrict rate, float *restrict over,
+                              int32_t *restrict ahead, const batch *b, int axis,
+                              const double *scale)
 {
-    float good[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
-        const double way = (b->to[i] - b->from[i]) * b->run[i];
-        good[i]          = ((b->meets[i] != 0) & (way >= MARCH_FROM)) ? 1.0F : 0.0F;
+        const lane_axis a =
+            turn_axis(b->origin[axis][i], b->direction[axis][i], b->from[i], 0.0, scale[i]);
+        at[i]    = a.at;
+        rate[i]  = a.rate;
+        over[i]  = a.over;
+        ahead[i] = a.ahead;
     }
-    return hc_v_greater(hc_v_load(good), hc_v_set(0.0F));
 }
 
 /* A batch in the lanes' coordinates. */
-static void turn_batch(runners *q, const hc_fast *fast, const batch *b)
+static inline void turn_batch(runners *q, const hc_fast *fast, const batch *b)
 {
-    float *const   at[2]    = { q->x, q->y };
-    float *const   rate[2]  = { q->dx, q->dy };
-    float *const   over[2]  = { q->rx, q->ry };
-    int32_t *const ahead[2] = { q->ahead_x, q->ahead_y };
-    double         scale[HC_LANES];
+    double scale[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
         scale[i]  = 1.0 / b->run[i];
         q->end[i] = (float)((b->to[i] - b->from[i]) * b->run[i]) + 2.0F * fast->blur;
     }
-    for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < HC_LANES; i++) {
-            const lane_axis a =
-                turn_axis(b->origin[k][i], b->direction[k][i], b->from[i], 0.0, scale[i]);
-            at[k][i]    = a.at;
-            rate[k][i]  = a.rate;
-            over[k][i]  = a.over;
-            ahead[k][i] = a.ahead;
-        }
-    }
+    turn_along(q->x, q->dx, q->rx, q->ahead_x, b, 0, scale);
+    turn_along(q->y, q->dy, q->ry, q->ahead_y, b, 1, scale);
     for (int i = 0; i < HC_LANES; i++) {
         q->quadrant[i]  = shift_to_quadrant(q->ahead_x[i], q->ahead_y[i]);
         q->z[i]         = (float)(b->origin[2][i] + b->from[i] * b->direction[2][i]);
@@ -254,45 +247,21 @@ static void turn_batch(runners *q, const hc_fast *fast, const batch *b)
     }
 }
 
+/* Rays to be marched, others than those to be walked. */
+static unsigned find_marched(const runners *q)
+{
+    return hc_v_greater(hc_v_load(q->end), hc_v_set(MARCH_FROM));
+}
+
 /* A group's rays, for any lanes. */
 static void enqueue_group(job *j, const group *g)
 {
     for (int k = 0; k < RUNNER_WORDS; k++) {
         const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
-        hc_pack_words((char *)&j->queue + row, g->lanes, (const char *)&g->ray + row);
+        hc_pack_words((char *)&j->queue + row, g->lanes, (const char *)&g->p.ray + row);
     }
     hc_pack_doubles(j->queue_from, g->lanes, g->b.from);
     j->queued = __builtin_popcount(g->lanes);
-}
-
-/* True if all lanes are of one sign, and none is 0. */
-static bool agree_in_sign(unsigned lanes, const float *values)
-{
-    const hc_v     none = hc_v_set(0.0F);
-    const unsigned up   = hc_v_greater(hc_v_load(values), none) & lanes;
-    const unsigned down = hc_v_greater(none, hc_v_load(values)) & lanes;
-    return up == lanes || down == lanes;
-}
-
-/* True if rays of a batch go the same way along both axes, and begin about as far from where t is
- * 0: s from there, less about the least of all. */
-static bool go_together(float *s, const hc_fast *fast, const batch *b, unsigned lanes)
-{
-    float way[2][HC_LANES];
-    float first, last;
-    for (int i = 0; i < HC_LANES; i++) {
-        s[i]      = (float)(b->from[i] * b->run[i]);
-        way[0][i] = (float)b->direction[0][i];
-        way[1][i] = (float)b->direction[1][i];
-    }
-    if (!agree_in_sign(lanes, way[0]) || !agree_in_sign(lanes, way[1])) {
-        return false;
-    }
-    span_of(&first, &last, lanes, s);
-    for (int i = 0; i < HC_LANES; i++) {
-        s[i] = (float)(b->from[i] * b->run[i] - (double)first);
-    }
-    return last - first <= 0.0625F * (float)(fast->x.cells + fast->y.cells);
 }
 
 /* Lanes that are not marched become 0, so that what is computed there is bounded. */
@@ -304,22 +273,29 @@ static void clear_lanes(runners *q, unsigned lanes)
     }
 }
 
-/* Make a group's rays a beam, if they can be one; over sparse ground they glide instead. Lanes
+/* Make a group's rays a beam, if they can be one; over sparse ground they glide instead. s counts
+ * from about where t is 0; where no beam is marched each ray goes on from its own beginning. Lanes
  * without a beam are computed too. */
 static bool join_group(job *j, group *g)
 {
-    if (__builtin_popcount(g->lanes) < BEAM_RAYS || !go_together(g->s, j->fast, &g->b, g->lanes)) {
+    if (__builtin_popcount(g->lanes) < BEAM_RAYS) {
         return false;
     }
+    const batch *b     = &g->b;
+    const int    one   = __builtin_ctz(g->lanes);
+    const double first = b->from[one] * b->run[one];
+    float        s[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        s[i] = (float)(b->from[i] * b->run[i] - first);
+    }
+    memcpy(g->s, s, sizeof s);
     if (j->group_count == 0) {
         memset(&j->beams, 0, sizeof j->beams);
     }
-    if (j->fast->sparse) {
-        memset(g->s, 0, sizeof g->s); /* each from its own beginning */
-    } else if (!join_beam(&j->beams, j->group_count, g, j->fast->first_level)) {
+    if (!join_beam(&j->beams, j->group_count, g, j->fast)) {
         return false;
     }
-    clear_lanes(&g->ray, g->lanes);
+    clear_lanes(&g->p.ray, g->lanes);
     j->used |= 1U << (g - j->groups);
     j->waiting[j->group_count++] = g;
     return true;
@@ -364,12 +340,12 @@ static unsigned answer_at_once(job *j, const runners *ray, unsigned lanes)
  * that are left are too different to stay together. */
 static void take_group(job *j, group *g, const int32_t *which, unsigned all)
 {
-    const batch   *b       = &g->b;
-    const unsigned marched = find_marched(b) & all;
-    const bool     any     = j->answer.any != NULL;
-    turn_batch(&g->ray, j->fast, b);
-    memcpy(g->ray.which, which, sizeof g->ray.which);
-    g->lanes = marched & ~(any ? answer_at_once(j, &g->ray, marched) : 0);
+    const batch *b   = &g->b;
+    const bool   any = j->answer.any != NULL;
+    turn_batch(&g->p.ray, j->fast, b);
+    memcpy(g->p.ray.which, which, sizeof g->p.ray.which);
+    const unsigned marched = find_marched(&g->p.ray) & all;
+    g->lanes               = marched & ~(any ? answer_at_once(j, &g->p.ray, marched) : 0);
     if (g->lanes != 0 && (any || !join_group(j, g))) {
         enqueue_group(j, g);
     }
@@ -389,11 +365,9 @@ static void take_new(job *j)
         const int      left  = j->count - j->taken;
         const int      count = left < HC_LANES ? left : HC_LANES;
         const unsigned all   = ALL_LANES >> (HC_LANES - count);
-        for (int i = 0; i < HC_LANES; i++) {
-            which[i] = j->taken + (i < count ? i : 0);
-        }
+        hc_i_store(which, hc_i_add(hc_i_set(j->taken), hc_i_load(hc_lane)));
+        prepare_next(&g->b, j->fast, j->rays + j->taken, count);
         j->taken += count;
-        prepare(&g->b, j->fast, j->rays, which);
         if (j->plain) {
             take_group(j, g, which, all);
         } else {

@@ -9,14 +9,17 @@
 
 #include <math.h>
 
+static const int32_t hc_lane[HC_LANES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+
 /* Periods that double precision bears without a thought for them. */
 static const double FAR_PERIODS = 4.0 * HC_PERIODS_MAX;
 
 typedef struct batch {
-    double  origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
-    double  run[HC_LANES]; /* cells gone sideways per t */
-    double  from[HC_LANES], to[HC_LANES], tmin[HC_LANES];
-    int32_t meets[HC_LANES];
+    double origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
+    double run[HC_LANES]; /* cells gone sideways per t                 */
+    /* from > to, or `to` is NaN: it cannot hit anything. What cuts a ray stands first in greater()
+     * and lesser(), so that this stays as it is. */
+    double from[HC_LANES], to[HC_LANES];
 } batch;
 
 static inline void place_axis(double *placed, const float *values, double scale, double shift)
@@ -26,22 +29,31 @@ static inline void place_axis(double *placed, const float *values, double scale,
     }
 }
 
-static inline void place_rays(batch *b, const hc_fast *fast, const hc_ray *rays,
-                              const int32_t *which)
+/* Rays all of whose numbers are finite, and that go somewhere. */
+static inline unsigned find_good(float columns[HC_ROW_WORDS][HC_LANES])
 {
-    const double scale[3] = { fast->x.scale, fast->y.scale, fast->scale_z };
-    const double shift[3] = { fast->x.shift, fast->y.shift, fast->shift_z };
-    float        columns[HC_ROW_WORDS][HC_LANES];
-    hc_columns(columns, rays, which);
+    const hc_v none = hc_v_set(0.0F);
+    hc_v       sum  = none; /* 0 or NaN */
+    hc_i       bits = hc_i_set(0);
+    for (int k = 0; k < 7; k++) {
+        sum = hc_v_about_muladd(hc_v_load(columns[k]), none, sum);
+    }
+    for (int k = 4; k < 7; k++) {
+        bits = hc_i_or(bits, hc_v_bits(hc_v_load(columns[k])));
+    }
+    return hc_v_greater(hc_v_set(1.0F), sum)
+           & hc_i_differ(hc_i_left(bits, hc_i_set(1)), hc_i_set(0));
+}
+
+static inline void place_rays(batch *b, const hc_fast *fast, float columns[HC_ROW_WORDS][HC_LANES])
+{
+    const double   scale[3] = { fast->x.scale, fast->y.scale, fast->scale_z };
+    const double   shift[3] = { fast->x.shift, fast->y.shift, fast->shift_z };
+    const unsigned good     = find_good(columns);
+    hc_v_store(columns[3], hc_v_pick(good, hc_v_load(columns[3]), hc_v_set(INFINITY)));
     for (int i = 0; i < HC_LANES; i++) {
-        const double length =
-            fabs((double)columns[4][i]) + fabs((double)columns[5][i]) + fabs((double)columns[6][i]);
-        const double sum = fabs((double)columns[0][i]) + fabs((double)columns[1][i])
-                           + fabs((double)columns[2][i]) + fabs((double)columns[3][i]) + length;
-        b->tmin[i]  = (double)columns[3][i];
-        b->from[i]  = (double)columns[3][i];
-        b->to[i]    = lesser(HC_FAST_T_MAX, (double)columns[7][i]);
-        b->meets[i] = (sum < INFINITY) & (length > 0.0) & (b->to[i] >= b->from[i]);
+        b->from[i] = (double)columns[3][i];
+        b->to[i]   = lesser(HC_FAST_T_MAX, (double)columns[7][i]);
     }
     for (int k = 0; k < 3; k++) {
         place_axis(b->origin[k], columns[k], scale[k], shift[k]);
@@ -63,11 +75,11 @@ static inline void cut_sides(batch *b, int axis, const hc_fast_axis *a)
         const double high   = (a->high - origin) * b->inverse[axis][i];
         const bool   along  = b->direction[axis][i] == 0.0;
         const bool   beyond = (origin < a->low) | (origin > a->high);
-        const double enter  = along ? -INFINITY : lesser(low, high);
+        const double never  = beyond ? INFINITY : -INFINITY;
+        const double enter  = along ? never : lesser(low, high);
         const double leave  = along ? INFINITY : greater(low, high);
-        b->from[i]          = greater(b->from[i], enter);
-        b->to[i]            = lesser(b->to[i], leave);
-        b->meets[i] &= !(along & beyond);
+        b->from[i]          = greater(enter, b->from[i]);
+        b->to[i]            = lesser(leave, b->to[i]);
     }
 }
 
@@ -78,7 +90,7 @@ static inline void cut_periods(batch *b, int axis, const hc_fast_axis *a)
         const double down  = (1.0 - b->origin[2][i]) / b->direction[2][i];
         const double start = b->direction[2][i] < 0.0 ? greater(b->from[i], down) : b->from[i];
         const double run   = HC_PERIODS_MAX * a->cells * fabs(b->inverse[axis][i]);
-        b->to[i]           = lesser(b->to[i], start + run);
+        b->to[i]           = lesser(start + run, b->to[i]);
     }
 }
 
@@ -88,15 +100,16 @@ static inline void cut_top(batch *b, double top)
     for (int i = 0; i < HC_LANES; i++) {
         const double direction = b->direction[2][i];
         const double t         = (top - b->origin[2][i]) / direction;
-        b->from[i]             = direction < 0.0 ? greater(b->from[i], t) : b->from[i];
-        b->to[i]               = direction > 0.0 ? lesser(b->to[i], t) : b->to[i];
-        b->meets[i] &= !((direction == 0.0) & (b->origin[2][i] > top));
+        b->from[i]             = direction < 0.0 ? greater(t, b->from[i]) : b->from[i];
+        b->to[i]               = direction > 0.0 ? lesser(t, b->to[i]) : b->to[i];
+        b->from[i] = (direction == 0.0) & (b->origin[2][i] > top) ? INFINITY : b->from[i];
     }
 }
 
-static inline void prepare(batch *b, const hc_fast *fast, const hc_ray *rays, const int32_t *which)
+/* `columns`: the rays' words, each in all lanes. */
+static inline void prepare(batch *b, const hc_fast *fast, float columns[HC_ROW_WORDS][HC_LANES])
 {
-    place_rays(b, fast, rays, which);
+    place_rays(b, fast, columns);
     if (!fast->x.wrapped) {
         cut_sides(b, 0, &fast->x);
     }
@@ -110,9 +123,29 @@ static inline void prepare(batch *b, const hc_fast *fast, const hc_ray *rays, co
         cut_periods(b, 1, &fast->y);
     }
     cut_top(b, fast->highest + HEADROOM);
-    for (int i = 0; i < HC_LANES; i++) {
-        b->meets[i] &= b->from[i] <= b->to[i];
+}
+
+/* Those of `rays` that are named. */
+static inline void prepare_some(batch *b, const hc_fast *fast, const hc_ray *rays,
+                                const int32_t *which)
+{
+    float columns[HC_ROW_WORDS][HC_LANES];
+    hc_columns(columns, rays, which);
+    prepare(b, fast, columns);
+}
+
+/* The first of `rays`, and its last again in other lanes. */
+static inline void prepare_next(batch *b, const hc_fast *fast, const hc_ray *rays, int count)
+{
+    float columns[HC_ROW_WORDS][HC_LANES];
+    if (count == HC_LANES) {
+        hc_columns(columns, rays, hc_lane);
+    } else {
+        int32_t which[HC_LANES];
+        hc_i_store(which, hc_i_min(hc_i_load(hc_lane), hc_i_set(count - 1)));
+        hc_columns(columns, rays, which);
     }
+    prepare(b, fast, columns);
 }
 
 /* Along a repeating axis it begins or ends too far away to know its place. */
@@ -127,7 +160,7 @@ static inline bool goes_far(const batch *b, int axis, const hc_fast_axis *a, int
 static inline hc_fast_fate take_ray(hc_fast_ray *r, const hc_fast *fast, const batch *b, int i,
                                     const hc_ray *ray)
 {
-    const bool inside = b->from[i] == b->tmin[i];
+    const bool inside = b->from[i] == (double)ray->tmin;
     if ((fast->open_sides && !inside) || goes_far(b, 0, &fast->x, i)
         || goes_far(b, 1, &fast->y, i)) {
         return hc_fast_enter(r, fast, ray);
@@ -138,7 +171,7 @@ static inline hc_fast_fate take_ray(hc_fast_ray *r, const hc_fast *fast, const b
                         .from      = b->from[i],
                         .to        = b->to[i],
                         .inside    = inside };
-    return b->meets[i] != 0 ? HC_FAST_MARCHES : HC_FAST_MISSES;
+    return b->from[i] <= b->to[i] ? HC_FAST_MARCHES : HC_FAST_MISSES;
 }
 
 #endif
