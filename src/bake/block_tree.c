@@ -1,6 +1,7 @@
 #include "block_tree.h"
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 #include <stdlib.h>
@@ -90,18 +91,20 @@ static void copy_block(const hc_block_tree *tree, const float *heights, int bloc
     }
 }
 
+static float higher(float a, float b)
+{
+    return a > b ? a : b;
+}
+
+/* Columns first, for vector code. */
 static float highest(const float *entries)
 {
-    float half[ENTRIES / 2]; /* halving instead of a chain of fifteen */
-    for (int i = 0; i < ENTRIES / 2; i++) {
-        half[i] = entries[i] > entries[i + ENTRIES / 2] ? entries[i] : entries[i + ENTRIES / 2];
+    float columns[SIDE];
+    for (int i = 0; i < SIDE; i++) {
+        columns[i] = higher(higher(entries[i], entries[i + SIDE]),
+                            higher(entries[i + 2 * SIDE], entries[i + 3 * SIDE]));
     }
-    for (int left = ENTRIES / 4; left > 0; left /= 2) {
-        for (int i = 0; i < left; i++) {
-            half[i] = half[i] > half[i + left] ? half[i] : half[i + left];
-        }
-    }
-    return half[0];
+    return higher(higher(columns[0], columns[1]), higher(columns[2], columns[3]));
 }
 
 /* Entries of one node of level `k` >= 1 from the nodes below it. */
@@ -126,9 +129,8 @@ typedef struct build {
     range          seen[HC_THREADS_MAX]; /* by each worker */
 } build;
 
-static void copy_row(void *context, int row, int worker)
+static void copy_row(build *b, int row, int worker)
 {
-    build       *b     = context;
     const int    rows  = b->tree->height - row * SIDE < SIDE ? b->tree->height - row * SIDE : SIDE;
     const size_t width = (size_t)b->tree->width;
     const float *from  = b->heights + (size_t)row * SIDE * width;
@@ -147,6 +149,18 @@ static void gather_row(void *context, int row, int worker)
     }
 }
 
+/* One row of level 1 and the blocks below it, while they are in the cache. */
+static void copy_and_gather(void *context, int row, int worker)
+{
+    build *b = context;
+    for (int i = row * SIDE; i < (row + 1) * SIDE && i < b->tree->levels[0].rows; i++) {
+        copy_row(b, i, worker);
+    }
+    if (b->tree->count > 1) {
+        gather_row(b, row, worker);
+    }
+}
+
 /* Differences of floats are exact where one is at most twice the other. */
 static void set_range(hc_block_tree *tree, range all)
 {
@@ -156,19 +170,21 @@ static void set_range(hc_block_tree *tree, range all)
     tree->range      = small ? all.high - tree->base : 1.0F;
 }
 
+/* Level 1 is gathered at once as if the base were 0, and again in the rare case that it is not. */
 static void build_levels(hc_block_tree *tree, const float *heights, int threads, hc_log *log)
 {
-    build b   = { .tree = tree, .heights = heights };
-    range all = { heights[0], heights[0] };
+    build     b    = { .tree = tree, .heights = heights, .level = 1 };
+    range     all  = { heights[0], heights[0] };
+    const int rows = (tree->levels[0].rows + SIDE - 1) / SIDE;
     for (int i = 0; i < threads; i++) {
         b.seen[i] = all;
     }
-    (void)hc_parallel_for(tree->levels[0].rows, threads, copy_row, &b, (hc_progress){ 0 }, log);
+    (void)hc_parallel_for(rows, threads, copy_and_gather, &b, (hc_progress){ 0 }, log);
     for (int i = 0; i < threads; i++) {
         all = wider(all, b.seen[i]);
     }
     set_range(tree, all);
-    for (b.level = 1; b.level < tree->count; b.level++) {
+    for (b.level = tree->base == 0.0F ? 2 : 1; b.level < tree->count; b.level++) {
         const hc_tree_level *level = &tree->levels[b.level];
         const bool           few   = level->columns < FEW_NODES / level->rows;
         (void)hc_parallel_for(level->rows, few ? 1 : threads, gather_row, &b, (hc_progress){ 0 },
@@ -181,7 +197,7 @@ hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, in
 {
     *tree               = (hc_block_tree){ .width = width, .height = height };
     const size_t floats = lay_out(tree);
-    tree->store = aligned_alloc(64, floats * sizeof(float)); /* a node is one 64-byte line */
+    tree->store         = hc_take_memory(floats * sizeof(float)); /* a node is one line */
     if (tree->store == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY,
                        "no memory for the search tree of %d x %d samples (%zu bytes)", width,

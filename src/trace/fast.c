@@ -1,23 +1,19 @@
 /* Making the fast caster: sizes, coordinates, the choice of kernel. */
-#define _DEFAULT_SOURCE /* madvise */
 #include "fast.h"
 
 #include "fast_data.h"
 
 #include "base/fail.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
-
 /* The coarsest level has at most so many blocks a side: the diagonals that fast_build.c looks at
  * reach across it. */
-enum { COARSEST = 6, PAGE = 1 << 21 };
+enum { COARSEST = 6 };
 
 /* Rays begin on this level. */
 enum { FIRST_LEVEL = 1 };
@@ -99,29 +95,6 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
                      blocks, hc_fast_plan_towers(fast) };
 }
 
-static size_t unit_of(size_t bytes)
-{
-    return bytes >= (size_t)PAGE ? PAGE : 64;
-}
-
-static size_t whole_units(size_t bytes)
-{
-    const size_t unit = unit_of(bytes);
-    return (bytes + unit - 1) / unit * unit;
-}
-
-/* Large pages, where there are: rays jump about, and each small page costs a look-up. */
-static void *take(size_t bytes)
-{
-    void *taken = aligned_alloc(unit_of(bytes), whole_units(bytes));
-#if defined(__linux__)
-    if (taken != NULL && unit_of(bytes) == PAGE) {
-        (void)madvise(taken, whole_units(bytes), MADV_HUGEPAGE);
-    }
-#endif
-    return taken;
-}
-
 static float highest_of(const hc_field *field)
 {
     const size_t count = (size_t)field->width * (size_t)field->height;
@@ -142,8 +115,8 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
 {
     hc_fast      fast;
     const layout sizes = plan(&fast, field, options);
-    return sizeof fast + whole_units(sizes.heights * sizeof(float))
-           + whole_units(block_bytes(&sizes));
+    return sizeof fast + hc_memory_taken(sizes.heights * sizeof(float))
+           + hc_memory_taken(block_bytes(&sizes));
 }
 
 hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
@@ -157,8 +130,8 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     made->tracer       = tracer;
     made->isa          = hc_isa_resolve(options->isa);
     made->highest      = (double)highest_of(field);
-    made->heights      = take(sizes.heights * sizeof(float));
-    made->blocks       = take(block_bytes(&sizes));
+    made->heights      = hc_take_memory(sizes.heights * sizeof(float));
+    made->blocks       = hc_take_memory(block_bytes(&sizes));
     hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
     hc_result result = made->heights != NULL && made->blocks != NULL
                            ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)
