@@ -3,7 +3,7 @@
 import math
 import struct
 
-from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, Case, main
+from program import BAD_FILE, ELEVATIONS, INPUT_OUTPUT, USAGE, Case, main
 
 
 class Info(Case):
@@ -69,6 +69,24 @@ class Info(Case):
         figures = self.json("info", "raw", "--raw", "3x1:f32")
         self.assertEqual(len(figures["warnings"]), 1)
         self.assertEqual(figures["statistics"][0]["zero"], 2)
+
+    def test_foreign_text(self):
+        """Names and metadata start no line and steer no terminal; JSON is UTF-8."""
+        steers = "a\nb\033[31m.pgm"
+        self.write_pgm(steers, [[0, 1]])
+        self.assertRegex(self.text("info", steers), r"(?m)^input +a\?b\?\[31m\.pgm$")
+        self.assertEqual(self.json("info", steers)["input"], steers)
+        self.run_program("bake", steers, "map.npy")
+        raw = self.path("map.npy").read_bytes()
+        self.path("map.npy").write_bytes(raw.replace(b"method=exact", b"method=%1B2m"))
+        self.assertRegex(self.text("info", "map.npy"), r"(?m)^method +\?2m$")
+        for arguments in [["bake", "x", steers[:-4]], ["gen", "f\nbm", "x.png", "--size", "4"],
+                          ["ba\nke"], ["bake", "x", "y.png", "--method", "\033c"]]:
+            self.assertNotIn("\033", self.refused(*arguments, code=USAGE, says=""))
+        for name, shown in [("\udcff.pgm", "?.pgm"), ("\udced\udca0\udc80.pgm", "???.pgm"),
+                            ("\udcc3.pgm", "?.pgm"), ("\u00e9\u20ac\U0001f3d4.pgm", None)]:
+            self.write_pgm(name, [[0, 1]])
+            self.assertEqual(self.json("info", name)["input"], shown or name)
 
     def test_bad_files(self):
         self.refused("info", "nothing", code=INPUT_OUTPUT, says="nothing")

@@ -1,6 +1,7 @@
 /* Errors, phases and figures, for people and for programs. */
 #include "cli.h"
 
+#include "foreign.h"
 #include "interrupt.h"
 
 #include <errno.h>
@@ -38,6 +39,7 @@ int hc_cli_fail(hc_cli *cli, int code, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    hc_cli_keep_to_one_line(line);
     hc_cli_bar_clear(&cli->bar);
     (void)fprintf(stderr, "heightcast %s: %s\n", cli->command, line);
     (void)cJSON_AddStringToObject(cli->json, "error", line);
@@ -98,6 +100,7 @@ void hc_cli_warn(hc_cli *cli, const char *format, ...)
     va_start(arguments, format);
     (void)vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
+    hc_cli_keep_to_one_line(line);
     if (!cli->settings.quiet) {
         hc_cli_bar_clear(&cli->bar);
         (void)fprintf(stderr, "heightcast %s: warning: %s\n", cli->command, line);
@@ -182,8 +185,11 @@ static void say_figure(hc_cli *cli, const char *name, const char *value, const c
         label[i] = (char)(name[i] == '_' ? ' ' : name[i]);
     }
     label[length] = '\0';
-    hc_cli_say(cli, "%s%-*s %s%s%s\n", inner ? "  " : "", inner ? 14 : 16, label, value,
-               unit == NULL ? "" : " ", unit == NULL ? "" : unit);
+    char shown[4096];
+    (void)snprintf(shown, sizeof shown, "%s%s%s", value, unit == NULL ? "" : " ",
+                   unit == NULL ? "" : unit);
+    hc_cli_keep_to_one_line(shown);
+    hc_cli_say(cli, "%s%-*s %s\n", inner ? "  " : "", inner ? 14 : 16, label, shown);
 }
 
 void hc_cli_group(hc_cli *cli, const char *name)
@@ -235,9 +241,18 @@ static void say_seconds(hc_cli *cli)
     hc_cli_say(cli, "%-16s %s\n", "seconds", line);
 }
 
-static int print_json(hc_cli *cli)
+char *hc_cli_json_text(const hc_cli *cli)
 {
     char *text = cJSON_Print(cli->json);
+    if (text != NULL) {
+        hc_cli_keep_to_utf8(text);
+    }
+    return text;
+}
+
+static int print_json(hc_cli *cli)
+{
+    char *text = hc_cli_json_text(cli);
     if (text == NULL) {
         return hc_cli_fail_memory(cli);
     }

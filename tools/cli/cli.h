@@ -33,6 +33,8 @@ typedef struct hc_cli {
 
 /* Fill in a zeroed cli whose `command` and `settings` are set. */
 void hc_cli_begin(hc_cli *cli);
+/* The JSON object so far, to be freed with cJSON_free; NULL: no memory. */
+char *hc_cli_json_text(const hc_cli *cli);
 /* End the running phase, print the JSON object if asked for, free. Returns the exit code: `code`,
  * or HC_CLI_INPUT_OUTPUT if standard output could not take everything. */
 int hc_cli_finish(hc_cli *cli, int code);

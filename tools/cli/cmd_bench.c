@@ -130,7 +130,7 @@ int hc_cli_write_reports(hc_cli *cli, const char *csv)
         code = hc_cli_write_text(cli, settings->csv, csv);
     }
     if (code == HC_CLI_DONE && settings->report != NULL && !settings->json) {
-        char *text = cJSON_Print(cli->json);
+        char *text = hc_cli_json_text(cli);
         code =
             text == NULL ? hc_cli_fail_memory(cli) : hc_cli_write_text(cli, settings->report, text);
         cJSON_free(text);

@@ -1,5 +1,6 @@
 /* Finds the command, reads its options, runs it. */
 #include "commands.h"
+#include "foreign.h"
 #include "interrupt.h"
 #include "options.h"
 
@@ -75,8 +76,11 @@ static const char *command_word(int index)
 
 static int fail_word(const char *what, const char *word)
 {
+    char        shown[64];
     const char *nearest = hc_cli_nearest(word, command_word);
-    (void)fprintf(stderr, "heightcast: unknown %s '%s'; ", what, word);
+    (void)snprintf(shown, sizeof shown, "%s", word);
+    hc_cli_keep_to_one_line(shown);
+    (void)fprintf(stderr, "heightcast: unknown %s '%s'; ", what, shown);
     if (nearest != NULL) {
         (void)fprintf(stderr, "did you mean '%s'?\n", nearest);
     } else {
