@@ -340,14 +340,23 @@ static void see_near(job *j, pack *p)
 
 /* ---- all together ---------------------------------------------------------------------------- */
 
-/* Lanes that have just begun, or have come past what stopped them. */
+/* Lanes that have just begun, or have come past what stopped them. What stops them now stands in
+ * the cell that they have come to. */
 static inline void glide_on(job *j, pack *p)
 {
-    const unsigned past = hc_v_greater(hc_v_load(p->s), hc_v_load(p->again));
-    const unsigned off  = past & p->active & ~p->held & ~p->near;
-    if (off != 0) {
-        glide(j->fast, &p->ray, p->s, p->again, off);
+    const hc_v     s     = hc_v_load(p->s);
+    const hc_v     again = hc_v_load(p->again);
+    const unsigned off   = hc_v_greater(s, again) & p->active & ~p->held & ~p->near;
+    if (off == 0) {
+        return;
     }
+    const landing l    = glide(j->fast, &p->ray, p->s, off);
+    const hc_v    past = hc_v_add(l.s, hc_v_set(GLIDE_AFTER));
+    const hc_v    next = hc_v_pick(l.above, past, hc_v_set(INFINITY));
+    hc_v_store(p->s, l.s);
+    hc_v_store(p->again, hc_v_pick(off, next, again));
+    hc_v_store(p->until, hc_v_pick(l.above, l.s, hc_v_load(p->until)));
+    p->near |= l.above;
 }
 
 static inline void see_to(job *j, int slot)

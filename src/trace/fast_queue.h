@@ -301,23 +301,20 @@ static bool join_group(job *j, group *g)
     return true;
 }
 
-/* Of rays that ask for any hit those that end in the air, or are below a tower that stops them: it
- * stands two cells further for most. */
+/* Of rays that ask for any hit those that end in the air, or are below the tower that stops them
+ * where they come past its middle. */
 static unsigned ask_towers(job *j, const runners *ray, unsigned lanes)
 {
-    runners q           = *ray;
-    float   s[HC_LANES] = { 0.0F };
-    float   again[HC_LANES];
-    memset(again, 0, sizeof again);
-    glide(j->fast, &q, s, again, lanes);
-    const hc_v     end    = hc_v_load(q.end);
-    const hc_v     stop   = hc_v_load(s);
-    const hc_v     under  = hc_v_add(stop, hc_v_set(2.0F));
-    const hc_v     over   = hc_v_sub(end, hc_v_set(4.0F * j->fast->blur));
-    const unsigned on     = lanes & hc_v_greater(end, stop);
-    const unsigned before = on & hc_v_greater(over, under);
-    const hc_v     gap    = gap_after(j->fast, &q, under, before);
-    const unsigned below  = before & hc_v_greater(hc_v_set(-j->fast->slack), gap);
+    static const float start[HC_LANES] = { 0.0F };
+    runners            q               = *ray;
+    const landing      l               = glide(j->fast, &q, start, lanes);
+    const hc_v         end             = hc_v_load(q.end);
+    const hc_v         over            = hc_v_sub(end, hc_v_set(4.0F * j->fast->blur));
+    const unsigned     on              = lanes & hc_v_greater(end, l.s);
+    const unsigned     inside          = on & hc_v_greater(over, l.middle);
+    const unsigned     before          = inside & hc_v_greater(l.middle, hc_v_set(0.0F));
+    const hc_v         gap             = gap_after(j->fast, &q, l.middle, before);
+    const unsigned     below           = before & hc_v_greater(hc_v_set(-j->fast->slack), gap);
     for (unsigned rest = lanes & ~on; rest != 0; rest &= rest - 1) {
         j->answer.any[q.which[__builtin_ctz(rest)]] = 0;
     }

@@ -101,8 +101,14 @@ static inline glides find_glides(const hc_fast *fast, const runners *q, hc_v fro
     return g;
 }
 
-/* Which rays may hit a tower; in `first`, how far they have gone before it. */
-static inline unsigned may_hit(const hc_fast *fast, uint32_t tower, const glides *g, hc_v *first)
+/* Where rays are that may hit a tower: before it, and beside its middle. */
+typedef struct stops {
+    hc_v before, middle;
+} stops;
+
+/* Those that are held up by a tower before they would be otherwise. */
+static inline stops hold_up(const hc_fast *fast, uint32_t tower, const glides *g, unsigned lanes,
+                            stops other)
 {
     const hc_fast_towers *all      = &fast->towers;
     const float           size     = all->size[tower];
@@ -122,9 +128,27 @@ static inline unsigned may_hit(const hc_fast *fast, uint32_t tower, const glides
     const hc_v            top      = hc_v_mul(part, hc_v_set(all->rise[tower]));
     const hc_v            z        = hc_v_about_muladd(along, g->rate, g->z);
     const hc_v            low      = hc_v_sub(z, hc_v_mul(reach, g->fall));
-    *first                         = hc_v_sub(along, reach);
-    return hc_v_greater(top, low) & hc_v_greater(inner, none) & hc_v_greater(g->to, *first)
-           & hc_v_greater(hc_v_add(along, reach), g->from);
+    const unsigned        passes =
+        hc_v_greater(along, hc_v_sub(g->from, reach)) & hc_v_greater(g->to, hc_v_sub(along, reach));
+    const unsigned hits = hc_v_greater(top, low) & hc_v_greater(inner, none) & passes & lanes;
+    /* As high as the ray is at least the tent is this near to its box. */
+    const hc_v     height = hc_v_about_over(hc_v_max(low, none), hc_v_set(all->rise[tower]));
+    const hc_v     root   = hc_v_about_sqrt(height);
+    const hc_v     within = hc_v_about_muladd(root, hc_v_set(-4.0F), reach);
+    const hc_v     before = hc_v_sub(along, within);
+    const unsigned sooner = hits & hc_v_greater(other.before, before);
+    return (stops){ hc_v_pick(sooner, before, other.before),
+                    hc_v_pick(sooner, along, other.middle) };
+}
+
+static inline stops nowhere(void)
+{
+    return (stops){ hc_v_set(INFINITY), hc_v_set(INFINITY) };
+}
+
+static inline unsigned find_stopped(const stops *s)
+{
+    return hc_v_greater(hc_v_set(INFINITY), s->before);
 }
 
 static inline float least_of(unsigned lanes, hc_v values)
@@ -225,19 +249,16 @@ static inline unsigned sift(const hc_fast *fast, const swath *w, uint32_t k)
            & hc_v_greater(hc_v_load(fast->towers.rise + k), least);
 }
 
-/* How far lanes go before they may hit a tower of a bin, or `first` if that is less. */
-static inline hc_v look_at_bin(const hc_fast *fast, const glides *g, const swath *w,
-                               const uint32_t *bin, unsigned lanes, hc_v first)
+/* Where lanes stop for towers of a bin, or before. */
+static inline stops look_at_bin(const hc_fast *fast, const glides *g, const swath *w,
+                                const uint32_t *bin, unsigned lanes, stops first)
 {
     const uint32_t end = bin[1];
     for (uint32_t k = bin[0]; k < end; k += HC_LANES) {
         const unsigned listed = end - k < HC_LANES ? (1U << (end - k)) - 1 : (1U << HC_LANES) - 1;
         unsigned       towers = sift(fast, w, k) & listed;
         for (; towers != 0; towers &= towers - 1) {
-            hc_v           from;
-            const uint32_t tower = k + (uint32_t)__builtin_ctz(towers);
-            const unsigned hits  = may_hit(fast, tower, g, &from) & lanes;
-            first                = hc_v_pick(hits, hc_v_min(from, first), first);
+            first = hold_up(fast, k + (uint32_t)__builtin_ctz(towers), g, lanes, first);
         }
     }
     return first;
@@ -250,8 +271,8 @@ static inline int bin_at(float at, int bins)
 }
 
 /* The bins of one column under a swath. */
-static inline hc_v look_at_column(const hc_fast *fast, const glides *g, const swath *w, int column,
-                                  float leave, unsigned lanes)
+static inline stops look_at_column(const hc_fast *fast, const glides *g, const swath *w, int column,
+                                   float leave, unsigned lanes)
 {
     const hc_fast_towers *t      = &fast->towers;
     const float           slack  = 16.0F * fast->blur;
@@ -264,17 +285,17 @@ static inline hc_v look_at_column(const hc_fast *fast, const glides *g, const sw
     const int             stride = w->turned ? 1 : t->bins_x;
     const int             last   = bin_at(high + slack, bins);
     const uint32_t       *first  = t->bins + (ptrdiff_t)column * (w->turned ? t->bins_x : 1);
-    hc_v                  near   = hc_v_set(INFINITY);
+    stops                 near   = nowhere();
     for (int k = bin_at(low - slack, bins); k <= last; k++) {
         near = look_at_bin(fast, g, w, first + (ptrdiff_t)k * stride, lanes, near);
     }
     return near;
 }
 
-/* How far rays go, at most `to`, before they may hit a tower. What one of a column may be hit after
- * the column has been left does not hide those behind it. */
-static inline hc_v glide_together(const hc_fast *fast, runners *q, const glides *g, const swath *w,
-                                  unsigned lanes)
+/* Where rays stop, at `to` at the latest. Where they leave a column in which they have been stopped
+ * they stop in any case: what stands behind it has not been seen. */
+static inline stops glide_together(const hc_fast *fast, runners *q, const glides *g, const swath *w,
+                                   unsigned lanes)
 {
     const hc_fast_towers *t     = &fast->towers;
     const int             bins  = w->turned ? t->bins_y : t->bins_x;
@@ -282,19 +303,20 @@ static inline hc_v glide_together(const hc_fast *fast, runners *q, const glides 
     const int             last  = bin_at(w->to * w->sign, bins);
     const hc_v            at    = hc_v_mul(hc_v_load(w->turned ? q->y : q->x), hc_v_set(2.0F));
     const hc_v            over  = hc_v_load(w->turned ? q->ry : q->rx);
-    hc_v                  until = g->to;
+    stops                 all   = { g->to, g->to };
     hc_i                  steps = hc_i_load(q->steps);
     for (int k = bin_at(w->from * w->sign, bins); lanes != 0; k += step) {
         const float    wall  = 2.0F * (float)((k - (step > 0 ? 0 : 1)) * HC_FAST_BIN);
-        const hc_v     first = look_at_column(fast, g, w, k, wall * w->sign - w->from, lanes);
-        const unsigned stops = hc_v_greater(hc_v_set(INFINITY), first);
+        const stops    first = look_at_column(fast, g, w, k, wall * w->sign - w->from, lanes);
+        const unsigned some  = find_stopped(&first);
         const hc_v     out   = hc_v_mul(hc_v_sub(hc_v_set(wall), at), over);
-        until                = hc_v_pick(stops, hc_v_min(first, out), until);
+        all.before           = hc_v_pick(some, hc_v_min(first.before, out), all.before);
+        all.middle           = hc_v_pick(some, first.middle, all.middle);
         steps                = hc_i_pick(lanes, hc_i_add(steps, hc_i_set(1)), steps);
-        lanes &= k == last ? 0 : ~stops;
+        lanes &= k == last ? 0 : ~some;
     }
     hc_i_store(q->steps, steps);
-    return until;
+    return all;
 }
 
 /* Walls between bins that a ray crosses, by the way to them in 2^-24 cells: integers are chosen
@@ -318,60 +340,67 @@ static inline walls find_walls(float at, float over, int bin, bool up, int step)
 }
 
 /* The same for lane i alone. */
-static inline hc_v glide_alone(const hc_fast *fast, runners *q, const glides *g, const swath *w,
-                               int i, float from, float to)
+static inline stops glide_alone(const hc_fast *fast, runners *q, const glides *g, const swath *w,
+                                int i, float from, float to)
 {
     const hc_fast_towers *t     = &fast->towers;
     const int             bin_x = bin_at(2.0F * (q->x[i] + from * q->dx[i]), t->bins_x);
     const int             bin_y = bin_at(2.0F * (q->y[i] + from * q->dy[i]), t->bins_y);
     const uint32_t       *bin   = t->bins + (ptrdiff_t)bin_y * t->bins_x + bin_x;
     const int64_t         end   = in_fractions(to);
-    const hc_v            never = hc_v_set(INFINITY);
     walls                 x     = find_walls(q->x[i], q->rx[i], bin_x, q->ahead_x[i] != 0, 1);
     walls                 y = find_walls(q->y[i], q->ry[i], bin_y, q->ahead_y[i] != 0, t->bins_x);
-    hc_v                  first = look_at_bin(fast, g, w, bin, 1U << i, never);
+    stops                 first = look_at_bin(fast, g, w, bin, 1U << i, nowhere());
     int64_t               leave = x.next < y.next ? x.next : y.next;
     int                   steps = 1;
-    while (leave < end && hc_v_greater(never, first) == 0) {
+    while (leave < end && find_stopped(&first) == 0) {
         const bool across = x.next < y.next;
         bin += across ? x.step : y.step;
         x.next += across ? x.more : 0;
         y.next += across ? 0 : y.more;
         leave = x.next < y.next ? x.next : y.next;
-        first = look_at_bin(fast, g, w, bin, 1U << i, never);
+        first = look_at_bin(fast, g, w, bin, 1U << i, nowhere());
         steps++;
     }
     q->steps[i] += steps;
-    const hc_v wall = hc_v_set((float)leave * 0x1p-23F);
-    return hc_v_greater(never, first) != 0 ? hc_v_min(first, wall) : g->to;
+    if (find_stopped(&first) == 0) {
+        return (stops){ g->to, g->to };
+    }
+    first.before = hc_v_min(first.before, hc_v_set((float)leave * 0x1p-23F));
+    return first;
 }
 
-/* Take lanes on from s as far as they hit nothing for certain, where they are above the floor;
- * `again`: from where on they may glide once more. */
-static inline void glide(const hc_fast *fast, runners *q, float *s, float *again, unsigned lanes)
+/* What lanes have come to. */
+typedef struct landing {
+    hc_v     s, middle; /* middle: beside what has stopped them */
+    unsigned above;     /* that were above the floor            */
+} landing;
+
+/* Lanes from s on, as far as they hit nothing for certain. */
+static inline landing glide(const hc_fast *fast, runners *q, const float *s, unsigned lanes)
 {
+    const hc_v     half  = hc_v_set(0.5F);
     const hc_v     from  = hc_v_load(s);
     const hc_v     to    = find_floor(fast, q);
     const glides   g     = find_glides(fast, q, from, to);
     const unsigned above = lanes & hc_v_greater(to, from);
-    hc_v           until = g.from;
+    stops          all   = { g.from, g.from };
     swath          w;
     if ((above & (above - 1)) != 0 && find_swath(&w, fast, q, &g, above)) {
-        until = glide_together(fast, q, &g, &w, above);
+        all = glide_together(fast, q, &g, &w, above);
     } else {
         float ends[HC_LANES];
         hc_v_store(ends, to);
         for (unsigned rest = above; rest != 0; rest &= rest - 1) {
-            const int i = __builtin_ctz(rest);
-            w           = find_way(fast, q, i, s[i], ends[i]);
-            until       = hc_v_pick(1U << i, glide_alone(fast, q, &g, &w, i, s[i], ends[i]), until);
+            const int i     = __builtin_ctz(rest);
+            w               = find_way(fast, q, i, s[i], ends[i]);
+            const stops one = glide_alone(fast, q, &g, &w, i, s[i], ends[i]);
+            all.before      = hc_v_pick(1U << i, one.before, all.before);
+            all.middle      = hc_v_pick(1U << i, one.middle, all.middle);
         }
     }
-    const hc_v ahead = hc_v_pick(above, hc_v_max(hc_v_mul(until, hc_v_set(0.5F)), from), from);
-    const hc_v after = hc_v_add(ahead, hc_v_set(GLIDE_AFTER));
-    const hc_v next  = hc_v_pick(above, after, hc_v_set(INFINITY));
-    hc_v_store(s, ahead);
-    hc_v_store(again, hc_v_pick(lanes, next, hc_v_load(again)));
+    const hc_v ahead = hc_v_max(hc_v_mul(all.before, half), from);
+    return (landing){ hc_v_pick(above, ahead, from), hc_v_mul(all.middle, half), above };
 }
 
 #endif

@@ -152,6 +152,57 @@ static void beams_hit_like_their_rays(void **state)
     assert_true(steps.among < 0.8 * steps.alone); /* there are beams, and they help */
 }
 
+/* Along columns of samples on which bins of towers end: to a tower there a ray comes from one bin
+ * alone, whichever it is. */
+static hc_ray ray_along(int width, uint64_t *random)
+{
+    const double beside =
+        64.0 * agree_range(random, 1, width / 64) + 2.0 * agree_uniform(random) - 1.0;
+    const double turn = agree_range(random, 0, 1) == 0 ? 0.0 : 0.01 * (agree_uniform(random) - 0.5);
+    return (
+        hc_ray){ .origin = { (float)((beside - 0.5) / width), 0.0F, (float)agree_uniform(random) },
+                 .direction = { (float)turn, 1.0F, 0.1F * (float)agree_uniform(random) },
+                 .tmax      = INFINITY };
+}
+
+static void towers_between_bins_are_met_from_both(void **state)
+{
+    enum { WIDTH = 200, HEIGHT = 150, COUNT = 4000 };
+    static float          heights[WIDTH * HEIGHT];
+    static hc_ray         rays[COUNT];
+    static hc_hit         hits[2][COUNT];
+    const hc_field        field     = { .width = WIDTH, .height = HEIGHT, .heights = heights };
+    const hc_trace_method methods[] = { HC_TRACE_FAST, HC_TRACE_MAXMIP };
+    int                   found     = 0;
+    uint64_t              random    = 44;
+    (void)state;
+    for (int i = 0; i < 150; i++) { /* sample 63 is corner 64 */
+        const int x =
+            i % 3 == 0 ? 64 * agree_range(&random, 1, 3) - 1 : agree_range(&random, 0, 199);
+        heights[WIDTH * agree_range(&random, 0, HEIGHT - 1) + x] =
+            0.25F + 0.75F * (float)agree_uniform(&random);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        rays[i] = ray_along(WIDTH, &random);
+    }
+    for (int m = 0; m < 2; m++) {
+        hc_tracer *tracer;
+        assert_int_equal(
+            hc_tracer_create(&tracer, &field, &(hc_trace_options){ .method = methods[m] }, NULL),
+            HC_OK);
+        hc_block_map map = { .sparse = false };
+        assert_true(hc_tracer_block_map(tracer, &map, NULL) == (m == 0));
+        assert_true(map.sparse == (m == 0));
+        hc_trace_nearest_many(tracer, hits[m], rays, COUNT);
+        hc_tracer_destroy(tracer);
+    }
+    for (int i = 0; i < COUNT; i++) {
+        found += hits[1][i].t < INFINITY;
+        assert_true(hits[0][i].t == hits[1][i].t || fabsf(hits[0][i].t - hits[1][i].t) < 1e-5F);
+    }
+    assert_in_range(found, COUNT / 10, COUNT * 9 / 10);
+}
+
 static double mean_steps(int side)
 {
     enum { COUNT = 4000 };
@@ -186,6 +237,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_hits_with_every_instruction_set),
         cmocka_unit_test(beams_hit_like_their_rays),
+        cmocka_unit_test(towers_between_bins_are_met_from_both),
         cmocka_unit_test(steps_grow_as_the_logarithm_of_the_side),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
