@@ -102,7 +102,7 @@ static inline void cut_top(batch *b, double top)
         const double t         = (top - b->origin[2][i]) / direction;
         b->from[i]             = direction < 0.0 ? greater(t, b->from[i]) : b->from[i];
         b->to[i]               = direction > 0.0 ? lesser(t, b->to[i]) : b->to[i];
-        b->from[i] = (direction == 0.0) & (b->origin[2][i] > top) ? INFINITY : b->from[i];
+        b->from[i] = ((direction == 0.0) & (b->origin[2][i] > top)) ? INFINITY : b->from[i];
     }
 }
 
