@@ -157,10 +157,13 @@ static void find_channels(float *ratios, const hc_exact_plan *plan, float (*foun
 void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, int tile_y,
                           int worker)
 {
-    float found[HC_ANISO_COUNT][TILE_SAMPLES];
+    float             found[HC_ANISO_COUNT][TILE_SAMPLES];
+    hc_exact_scratch *scratch = &plan->scratch[worker * plan->count];
     for (int i = 0; i < plan->count; i++) {
-        plan->kernel(found[i], &plan->passes[i], tile_x, tile_y,
-                     &plan->scratch[worker * plan->count + i]);
+        if (plan->cones == HC_CONES_ANISO) { /* much the same samples limit all five searches */
+            scratch[i].recent = scratch[(i + plan->count - 1) % plan->count].recent;
+        }
+        plan->kernel(found[i], &plan->passes[i], tile_x, tile_y, &scratch[i]);
     }
     float        tile[4 * TILE_SAMPLES];
     const size_t channels = (size_t)hc_cones_channels(plan->cones);

@@ -270,10 +270,10 @@ INLINE void search_distant(kind k, tile *t, int part)
  * before have just found. */
 INLINE void search_blocks(kind k, tile *t)
 {
-    const unsigned known = t->scratch->recent_next;
+    const unsigned known = t->scratch->recent.next;
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         search_near(k, t, part);
-        for (unsigned i = known; i != t->scratch->recent_next; i++) {
+        for (unsigned i = known; i != t->scratch->recent.next; i++) {
             (void)guess_from_recent(k, t, part, (int)(i % HC_RECENT));
         }
         search_distant(k, t, part);

@@ -14,21 +14,21 @@
 INLINE void guess(kind k, tile *t)
 {
     hc_exact_scratch *scratch = t->scratch;
-    const unsigned    first   = scratch->recent_useful;
+    const unsigned    first   = scratch->recent.useful;
     unsigned          useful  = guess_from_all(k, t, first);
     unsigned          others  = 0;
     t->hull                   = draw_envelope(t, 0, HC_TILE_PARTS);
     for (int i = 0; i < HC_RECENT; i += HC_LANES) {
         const hc_v across =
-            hc_v_sub(hc_v_load(scratch->recent_x + i), hc_v_set((float)t->x + MIDDLE));
+            hc_v_sub(hc_v_load(scratch->recent.x + i), hc_v_set((float)t->x + MIDDLE));
         const hc_v down =
-            hc_v_sub(hc_v_load(scratch->recent_y + i), hc_v_set((float)t->y + MIDDLE));
+            hc_v_sub(hc_v_load(scratch->recent.y + i), hc_v_set((float)t->y + MIDDLE));
         const hc_v tops =
-            hc_v_sub(hc_v_load(scratch->recent_height + i), hc_v_set(t->pass->tree->base));
+            hc_v_sub(hc_v_load(scratch->recent.height + i), hc_v_set(t->pass->tree->base));
         others |= promising(k, t, &t->hull, HC_TILE_SIDE, across, down, tops, 1) << i;
     }
     const unsigned more    = guess_from_all(k, t, others & ~first);
-    scratch->recent_useful = useful | more;
+    scratch->recent.useful = useful | more;
     t->stale               = more != 0;
 }
 
@@ -86,7 +86,9 @@ INLINE void guess_from_places(kind k, tile *t, int part, const node_places *from
         const hc_v size =
             measure(k, hc_v_add(across, halves), hc_v_mul(hc_v_add(down, halves), aspect));
         const hc_v rise = hc_v_sub(hc_v_set(from->top[i]), t->lifted[part]);
-        best            = hc_v_max(hc_v_mul(rise, hc_v_about_over(hc_v_set(1.0F), size)), best);
+        const hc_v weight =
+            k.diamond ? hc_v_about_over(hc_v_set(1.0F), size) : hc_v_about_rsqrt(size);
+        best = hc_v_max(hc_v_mul(rise, weight), best);
     }
     t->T[part] = hc_v_max(hc_v_mul(best, hc_v_set(LOWER / t->pass->step_u)), t->T[part]);
 }
@@ -164,7 +166,7 @@ INLINE void search_tree(kind k, tile *t)
         }
         hc_node_list *list  = &lists[level];
         hc_node_list *below = &lists[level - 1];
-        if (k.diamond && done[level] == 0 && list->count >= GUESSING_NODES) {
+        if (done[level] == 0 && list->count >= GUESSING_NODES) {
             guess_from_nodes(k, t, level, list);
         }
         if (t->stale && done[level] < list->count) {

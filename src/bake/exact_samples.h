@@ -79,13 +79,13 @@ INLINE bool guess_from_recent(kind k, tile *t, int part, int i)
 {
     const hc_exact_pass    *pass    = t->pass;
     const hc_exact_scratch *scratch = t->scratch;
-    const hc_v across = hc_v_sub(hc_v_set(scratch->recent_x[i]), part_columns(t, part));
-    const hc_v below  = hc_v_sub(hc_v_set(scratch->recent_y[i]), part_rows(t, part));
+    const hc_v across = hc_v_sub(hc_v_set(scratch->recent.x[i]), part_columns(t, part));
+    const hc_v below  = hc_v_sub(hc_v_set(scratch->recent.y[i]), part_rows(t, part));
     const hc_v down   = hc_v_mul(below, hc_v_set(t->aspect));
     const hc_v size =
         k.diamond ? measure(k, hc_v_abs(across), hc_v_abs(down)) : measure(k, across, down);
     const hc_v root = hc_v_about_rsqrt(size);
-    hc_v       rise = hc_v_sub(hc_v_set(scratch->recent_height[i]), t->height[part]);
+    hc_v       rise = hc_v_sub(hc_v_set(scratch->recent.height[i]), t->height[part]);
     if (k.quadrant) {
         rise = hc_v_keep(in_quadrant(pass, across, down), rise);
     }
@@ -115,8 +115,8 @@ INLINE unsigned find_recent(const hc_exact_scratch *scratch, int x, int y)
 {
     unsigned others = 0;
     for (int i = 0; i < HC_RECENT; i += HC_LANES) {
-        const hc_v across = hc_v_sub(hc_v_load(scratch->recent_x + i), hc_v_set((float)x));
-        const hc_v down   = hc_v_sub(hc_v_load(scratch->recent_y + i), hc_v_set((float)y));
+        const hc_v across = hc_v_sub(hc_v_load(scratch->recent.x + i), hc_v_set((float)x));
+        const hc_v down   = hc_v_sub(hc_v_load(scratch->recent.y + i), hc_v_set((float)y));
         const hc_v apart  = hc_v_add(hc_v_abs(across), hc_v_abs(down));
         others |= hc_v_greater(apart, hc_v_set(0.0F)) << i;
     }
@@ -127,14 +127,14 @@ INLINE unsigned find_recent(const hc_exact_scratch *scratch, int x, int y)
 static void remember(hc_exact_scratch *scratch, int x, int y, float height)
 {
     const unsigned known  = find_recent(scratch, x, y);
-    const unsigned oldest = scratch->recent_next % HC_RECENT;
+    const unsigned oldest = scratch->recent.next % HC_RECENT;
     if (known == 0) {
-        scratch->recent_x[oldest]      = (float)x;
-        scratch->recent_y[oldest]      = (float)y;
-        scratch->recent_height[oldest] = height;
-        scratch->recent_useful |= 1U << oldest;
+        scratch->recent.x[oldest]      = (float)x;
+        scratch->recent.y[oldest]      = (float)y;
+        scratch->recent.height[oldest] = height;
+        scratch->recent.useful |= 1U << oldest;
     }
-    scratch->recent_next += known == 0 || (known >> oldest & 1U) != 0;
+    scratch->recent.next += known == 0 || (known >> oldest & 1U) != 0;
 }
 
 #endif

@@ -81,17 +81,22 @@ typedef struct hc_around {
     bool known;
 } hc_around;
 
-/* Memory of one worker. `recent` holds distant samples that limited cones a moment ago: they are
- * first guesses for the next tile, which its result does not depend on. */
+/* Distant samples that limited cones a moment ago: first guesses for the next tile, which its result
+ * does not depend on. */
+typedef struct hc_recent {
+    float    x[HC_RECENT], y[HC_RECENT], height[HC_RECENT];
+    unsigned next;
+    unsigned useful; /* bit i: number i raised thresholds of the last tile */
+} hc_recent;
+
+/* Memory of one worker. */
 typedef struct hc_exact_scratch {
     hc_node_list    lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
     hc_node_list    near;
     hc_node_list    sifted; /* lists[0], as far as a part needs it */
     hc_near_samples wanted;
     hc_around       around;
-    float           recent_x[HC_RECENT], recent_y[HC_RECENT], recent_height[HC_RECENT];
-    unsigned        recent_next;
-    unsigned        recent_useful; /* bit i: number i raised thresholds of the last tile */
+    hc_recent       recent;
 } hc_exact_scratch;
 
 /* Search one tile: the largest steepness of each sample into `steepness` (HC_TILE_SIDE rows of
