@@ -132,7 +132,9 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     made->highest      = (double)highest_of(field);
     made->heights      = hc_take_memory(sizes.heights * sizeof(float));
     made->blocks       = hc_take_memory(block_bytes(&sizes));
-    hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
+    if (made->blocks != NULL) {
+        hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
+    }
     hc_result result = made->heights != NULL && made->blocks != NULL
                            ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)
                            : hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
