@@ -361,10 +361,7 @@ static inline void glide_on(job *j, pack *p)
 
 static inline void see_to(job *j, int slot)
 {
-    pack *p = j->packs[slot];
-    if (j->fast->towers.listed) {
-        glide_on(j, p);
-    }
+    pack          *p     = j->packs[slot];
     const hc_v     end   = hc_v_load(p->ray.end);
     const unsigned ended = p->active & ~p->held & ~hc_v_greater(end, hc_v_load(p->s));
     if (ended != 0) {
@@ -382,6 +379,9 @@ static inline void see_to(job *j, int slot)
     const unsigned idle = ~p->active & ALL_LANES;
     if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN)) {
         refill(j, slot, idle);
+    }
+    if (j->fast->towers.listed) {
+        glide_on(j, j->packs[slot]); /* refill may have put another there */
     }
 }
 
