@@ -142,8 +142,19 @@ typedef struct cover {
     hc_i code;
 } cover;
 
+static inline hc_i worse_code(hc_i a, hc_i b, ground kind)
+{
+    if (kind != GROUND_SPARSE) {
+        return hc_i_max(a, b);
+    }
+    const hc_i free = hc_i_set((1 << HC_FAST_FREE_BITS) - 1);
+    const hc_i rest = hc_i_set(~((1 << HC_FAST_FREE_BITS) - 1));
+    return hc_i_or(hc_i_max(hc_i_and(a, rest), hc_i_and(b, rest)),
+                   hc_i_min(hc_i_and(a, free), hc_i_and(b, free)));
+}
+
 static inline cover cover_box(const hc_fast *fast, const beams *b, const footing *x,
-                              const footing *y, hc_i level, unsigned lanes)
+                              const footing *y, hc_i level, unsigned lanes, ground kind)
 {
     const hc_i stride   = hc_i_lookup(fast->stride, level);
     const hc_i start    = hc_i_lookup(fast->start, level);
@@ -157,13 +168,14 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
         hc_gather_pairs(&top, &codes, fast->blocks, index, lanes);
         const hc_i code = hc_i_and(hc_i_right(codes, quadrant), hc_i_set(255));
         all.top         = k == 0 ? hc_v_of_bits(top) : hc_v_max(all.top, hc_v_of_bits(top));
-        all.code        = k == 0 ? code : hc_i_max(all.code, code);
+        all.code        = k == 0 ? code : worse_code(all.code, code, kind);
     }
     return all;
 }
 
 /* One step, or one level up or down, of the beams in `active`. Returns those that go on. */
-static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active, unsigned *sinking)
+static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active, unsigned *sinking,
+                                  ground kind)
 {
     const hc_v     s     = hc_v_load(b->s);
     const hc_v     z     = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
@@ -174,19 +186,18 @@ static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active
     const footing  y     = find_footing(b, 1, s, shift, fast->y.cells);
     const unsigned wide  = is_wide(&x) | is_wide(&y);
     const unsigned fits  = active & ~wide;
-    const cover    c     = cover_box(fast, b, &x, &y, level, fits);
+    const cover    c     = cover_box(fast, b, &x, &y, level, fits, kind);
     const hc_v     wall  = hc_v_max(hc_v_min(x.out, y.out), hc_v_set(0.0F));
     const hc_v     out   = hc_v_add(wall, hc_v_set(fast->blur));
     const hc_v     leave = hc_v_sub(z, hc_v_mul(out, down));
     const unsigned above = hc_v_greater(z, c.top) & fits;
     const unsigned clear = above & hc_v_greater(leave, c.top);
     const hc_v     side  = hc_v_from_i(hc_i_left(hc_i_set(1), shift));
-    const hc_v     beyond =
-        go_beyond(fast, c.code, shift, hc_v_sub(leave, c.top), down, side, GROUND_PATCHES);
-    const hc_v descent = hc_v_max(down, hc_v_set(0x1p-60F));
-    const hc_v part    = hc_v_about_over(hc_v_sub(z, c.top), descent);
-    const hc_v step    = hc_v_pick(clear, hc_v_add(out, beyond), part);
-    const hc_v ahead   = hc_v_pick(above, hc_v_add(s, step), s);
+    const hc_v beyond    = go_beyond(fast, c.code, shift, hc_v_sub(leave, c.top), down, side, kind);
+    const hc_v descent   = hc_v_max(down, hc_v_set(0x1p-60F));
+    const hc_v part      = hc_v_about_over(hc_v_sub(z, c.top), descent);
+    const hc_v step      = hc_v_pick(clear, hc_v_add(out, beyond), part);
+    const hc_v ahead     = hc_v_pick(above, hc_v_add(s, step), s);
     hc_v_store(b->s, ahead);
 
     const unsigned rises   = clear | (wide & active & ~*sinking);
@@ -203,13 +214,13 @@ static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active
 }
 
 /* Until few of the first `count` beams go on. */
-static inline void march_beams(const hc_fast *fast, beams *b, int count)
+static inline void march_beams(const hc_fast *fast, beams *b, int count, ground kind)
 {
     enum { FEW = 1, ROUNDS = 40 };
     unsigned active  = (1U << count) - 1;
     unsigned sinking = 0;
     for (int i = 0; i < ROUNDS && __builtin_popcount(active) > (count > FEW ? FEW : 0); i++) {
-        active = step_beams(fast, b, active, &sinking);
+        active = step_beams(fast, b, active, &sinking, kind);
     }
 }
 

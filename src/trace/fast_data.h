@@ -50,7 +50,7 @@ typedef struct hc_fast_axis {
  * Those that a ray over bin i may meet are bins[i] .. bins[i + 1] - 1; around the field stands a
  * frame of bins, row by row. */
 typedef struct hc_fast_towers {
-    bool      listed; /* they are few, nothing repeats, no side is open */
+    bool      listed; /* they are few everywhere, nothing repeats, no side is open */
     float     floor;  /* and what marching keeps above it               */
     int       bins_x, bins_y;
     uint32_t  most; /* entries */

@@ -273,7 +273,7 @@ static void clear_lanes(runners *q, unsigned lanes)
     }
 }
 
-/* Make a group's rays a beam, if they can be one; over sparse ground they glide instead. s counts
+/* Make a group's rays a beam, if they can be one; over towers they glide instead. s counts
  * from about where t is 0; where no beam is marched each ray goes on from its own beginning. Lanes
  * without a beam are computed too. */
 static bool join_group(job *j, group *g)
@@ -371,8 +371,9 @@ static void take_new(job *j)
             enqueue_one_by_one(j, &g->b, which, all);
         }
     }
-    if (j->group_count > 0 && !j->fast->sparse) {
-        march_beams(j->fast, &j->beams, j->group_count);
+    if (j->group_count > 0 && !j->fast->towers.listed) {
+        march_beams(j->fast, &j->beams, j->group_count,
+                    j->fast->sparse ? GROUND_SPARSE : GROUND_PATCHES);
     }
 }
 

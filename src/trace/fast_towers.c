@@ -5,8 +5,8 @@
 #include <string.h>
 
 /* Towers are at most one corner in RARE, and their entries in bins one in ROOM: most stand in one
- * bin. */
-enum { RARE = 64, ROOM = 48, CLASSES = 1024 };
+ * bin. Where a bin has more than CROWD, as along a wall, blocks tell more than towers. */
+enum { RARE = 64, ROOM = 48, CROWD = 64, CLASSES = 1024 };
 
 typedef struct tower {
     int   left, right, above, below;
@@ -130,13 +130,15 @@ void hc_fast_list_towers(hc_fast *fast)
     const size_t    bins   = (size_t)all->bins_x * (size_t)all->bins_y;
     const float     ground = choose_floor(fast);
     uint32_t        sum    = 0;
+    uint32_t        most   = 0;
     memset(all->bins, 0, (bins + 1) * sizeof *all->bins);
     list_all(fast, ground, true);
     for (size_t i = 0; i <= bins; i++) {
+        most = all->bins[i] > most ? all->bins[i] : most;
         sum += all->bins[i];
         all->bins[i] = sum; /* its end: entries are put in from there down to where it begins */
     }
-    if (sum + 16 <= all->most) {
+    if (most <= CROWD && sum + 16 <= all->most) {
         memset(all->x, 0, 4 * (size_t)all->most * sizeof(float));
         list_all(fast, ground, false);
         all->floor        = ground + fast->least;
