@@ -81,8 +81,8 @@ typedef struct hc_cone_options {
  * Safe on the bilinear surface: l1, quad and aniso after hc_bake_cell_ratios (docs/algorithms.md
  * has the proof); l2 is safe against the samples, as in the 2006 paper, not between them.
  *
- * Work memory: exact about 4.6 bytes per sample; brute, ring: none to speak of; quick, gems,
- * falling-edge 6 bytes.
+ * Work memory: exact about 4.6 bytes per sample and at most 2 MiB; brute, ring: none to speak of;
+ * quick, gems, falling-edge 6 bytes.
  * Time for N samples: exact about N log N on natural fields; brute N^2; quick N log N; gems
  * N^2 * steps.
  * Source: Dummer 2006 (definition, ring), 2022 sections 3 (quick), docs/algorithms.md (exact, quad,
