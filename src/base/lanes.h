@@ -7,13 +7,13 @@
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
  * hc_rows            the reverse: word k of the eight words at rows[i] from word i of columns[k]
  * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i]
- * hc_highest_of      highest[k] of all lanes of rows[k], for as many rows as there are lanes */
+ * hc_highest_of      highest[k] of all lanes of rows[k], sixteen rows */
 #ifndef HC_BASE_LANES_H
 #define HC_BASE_LANES_H
 
 #include "simd.h"
 
-enum { HC_ROW_WORDS = 8 };
+enum { HC_ROW_WORDS = 8, HC_HIGHEST = 16 };
 
 #if defined(HC_SIMD_AVX512)
 
@@ -130,7 +130,7 @@ static inline __m512 hc_fold_quarters(__m512 a, __m512 b)
     return _mm512_max_ps(_mm512_shuffle_f32x4(a, b, 0x88), _mm512_shuffle_f32x4(a, b, 0xdd));
 }
 
-static inline void hc_highest_of(float highest[HC_LANES], const hc_v rows[HC_LANES])
+static inline void hc_highest_of(float highest[HC_HIGHEST], const hc_v rows[HC_HIGHEST])
 {
     __m512 two[8];
     __m512 four[4];
@@ -229,9 +229,9 @@ static inline void hc_rows(void *const rows[HC_LANES], const void *const columns
 
 #if !defined(HC_SIMD_AVX512)
 
-static inline void hc_highest_of(float highest[HC_LANES], const hc_v rows[HC_LANES])
+static inline void hc_highest_of(float highest[HC_HIGHEST], const hc_v rows[HC_HIGHEST])
 {
-    for (int k = 0; k < HC_LANES; k++) {
+    for (int k = 0; k < HC_HIGHEST; k++) {
         highest[k] = hc_v_highest(rows[k]);
     }
 }

@@ -26,9 +26,13 @@
 #include <stdint.h>
 #include <string.h>
 
+#if !defined(HC_LANES)
 #define HC_LANES 16
+#endif
 
-#if defined(HC_SIMD_AVX512)
+#if HC_LANES == 1
+#include "simd_one.h"
+#elif defined(HC_SIMD_AVX512)
 #include "simd_avx512.h"
 #elif defined(HC_SIMD_AVX2)
 #include "simd_avx2.h"

@@ -164,8 +164,14 @@ void hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach)
     *reach = 0x1p-30 * longer_of(fast)->cells;
 }
 
-static hc_fast_march *kernel_of(const hc_fast *fast)
+/* Fewer rays than this are sooner done one by one than in sixteen lanes. */
+enum { FEW = 3 };
+
+static hc_fast_march *kernel_of(const hc_fast *fast, size_t count)
 {
+    if (count < FEW) {
+        return hc_fast_march_one;
+    }
 #if defined(__x86_64__) && !defined(HC_FORCE_SCALAR)
     if (fast->isa == HC_ISA_AVX512) {
         return hc_fast_march_avx512;
@@ -186,7 +192,7 @@ void hc_fast_nearest(const hc_fast *fast, hc_hit *hits, const hc_ray *rays, size
 {
     for (size_t i = 0; i < count; i += most_at_once) {
         const size_t part = count - i < most_at_once ? count - i : most_at_once;
-        kernel_of(fast)(fast, (hc_fast_answer){ .hits = hits + i }, rays + i, part);
+        kernel_of(fast, part)(fast, (hc_fast_answer){ .hits = hits + i }, rays + i, part);
     }
 }
 
@@ -194,6 +200,6 @@ void hc_fast_any(const hc_fast *fast, uint8_t *any, const hc_ray *rays, size_t c
 {
     for (size_t i = 0; i < count; i += most_at_once) {
         const size_t part = count - i < most_at_once ? count - i : most_at_once;
-        kernel_of(fast)(fast, (hc_fast_answer){ .any = any + i }, rays + i, part);
+        kernel_of(fast, part)(fast, (hc_fast_answer){ .any = any + i }, rays + i, part);
     }
 }

@@ -159,6 +159,6 @@ typedef struct hc_fast_answer {
 
 typedef void  hc_fast_march(const hc_fast *fast, hc_fast_answer answer, const hc_ray *rays,
                             size_t count);
-hc_fast_march hc_fast_march_scalar, hc_fast_march_avx2, hc_fast_march_avx512;
+hc_fast_march hc_fast_march_one, hc_fast_march_scalar, hc_fast_march_avx2, hc_fast_march_avx512;
 
 #endif

@@ -7,7 +7,7 @@
 #include "fast_queue.h"
 
 /* Lanes to gather before they are looked at together, and before they take new rays. */
-enum { NEAR_MIN = 6, DONE_MIN = 4 };
+enum { NEAR_MIN = 6, DONE_MIN = HC_LANES < 4 ? 1 : 4 };
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
 
@@ -39,6 +39,13 @@ static pack *load_group(job *j)
     ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0], j->count);
     ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES, j->count); /* after these groups */
     return p;
+}
+
+/* Are there rays that are not in lanes? */
+static inline bool has_more(const job *j)
+{
+    return j->next != j->queued || j->taken != j->count || j->next_group != j->group_count
+           || j->left_count != 0;
 }
 
 /* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
@@ -271,6 +278,7 @@ static void decide_group(job *j, pack *p)
     const batch   *b    = &p->group->b;
     const question what = { p->cell_x, p->cell_y, p->s, b->from };
     verdict        v;
+    hc_v_store(v.s, hc_v_set(0.0F)); /* read where nothing is clear, too */
     decide_cells(j->fast, b, &what, p->held, &v);
     unsigned       hits  = find_set(v.hit) & p->held;
     const unsigned clear = find_set(v.clear) & p->held & ~hits;
@@ -377,7 +385,7 @@ static inline void see_to(job *j, int slot)
         decide_group(j, p);
     }
     const unsigned idle = ~p->active & ALL_LANES;
-    if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN)) {
+    if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN) && has_more(j)) {
         refill(j, slot, idle);
     }
     if (j->fast->towers.listed) {
@@ -406,7 +414,7 @@ static inline void march_all(job *j, ground kind)
     }
 }
 
-static unsigned busy_lanes(const job *j)
+static inline unsigned busy_lanes(const job *j)
 {
     unsigned busy = 0;
     for (int k = 0; k < PACKS; k++) {
@@ -415,7 +423,7 @@ static unsigned busy_lanes(const job *j)
     return busy;
 }
 
-/* Idle lanes are computed too: what they shift by must be some number of bits. */
+/* Idle lanes are computed too. */
 static void start(job *j)
 {
     j->taken        = 0;
@@ -427,14 +435,30 @@ static void start(job *j)
     j->next_group   = 0;
     j->used         = 0;
     for (int k = 0; k < PACKS; k++) {
-        pack *p     = &j->own[k];
-        j->packs[k] = p;
-        p->active   = 0;
-        p->near     = 0;
-        p->held     = 0;
-        p->group    = NULL;
-        memset(p->level, 0, sizeof p->level);
-        memset(p->ray.quadrant, 0, sizeof p->ray.quadrant);
+        j->packs[k] = &j->own[k];
+        memset(j->packs[k], 0, sizeof *j->packs[k]);
+    }
+}
+
+static void go_through(job *j)
+{
+    for (;;) {
+        for (int k = 0; k < PACKS; k++) {
+            see_to(j, k);
+        }
+        if (busy_lanes(j) == 0) {
+            if (j->trials.count > 0) {
+                decide(j);
+            } else if (!has_more(j)) {
+                return;
+            }
+        } else if (j->fast->steps) {
+            march_all(j, GROUND_STEPS);
+        } else if (j->fast->sparse) {
+            march_all(j, GROUND_SPARSE);
+        } else {
+            march_all(j, GROUND_PATCHES);
+        }
     }
 }
 
@@ -447,24 +471,5 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
     j.rays   = rays;
     j.count  = (int32_t)count;
     j.plain  = !fast->steps && !fast->open_sides && !fast->x.wrapped && !fast->y.wrapped;
-    for (;;) {
-        for (int k = 0; k < PACKS; k++) {
-            see_to(&j, k);
-        }
-        if (busy_lanes(&j) == 0) {
-            if (j.trials.count > 0) {
-                decide(&j);
-            } else if (j.left_count == 0 && j.taken == j.count && j.next == j.queued) {
-                return;
-            }
-            continue;
-        }
-        if (fast->steps) {
-            march_all(&j, GROUND_STEPS);
-        } else if (fast->sparse) {
-            march_all(&j, GROUND_SPARSE);
-        } else {
-            march_all(&j, GROUND_PATCHES);
-        }
-    }
+    go_through(&j);
 }

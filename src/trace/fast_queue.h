@@ -12,7 +12,11 @@
 #include <math.h>
 
 /* Packs take turns, so that one computes while the others wait for memory. */
-enum { ALL_LANES = 0xffff, PACKS = 4, LEFT_MAX = (PACKS + 4) * HC_LANES };
+enum {
+    ALL_LANES = (1 << HC_LANES) - 1,
+    PACKS     = HC_LANES < 16 ? 1 : 4,
+    LEFT_MAX  = (PACKS + 4) * HC_LANES
+};
 
 /* Rays that go less far, in cells, are walked at once: vertical ones above all. */
 static const float MARCH_FROM = 2.0F;

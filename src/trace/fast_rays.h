@@ -9,7 +9,7 @@
 
 #include <math.h>
 
-static const int32_t hc_lane[HC_LANES] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
+static const int32_t hc_lane[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15 };
 
 /* Periods that double precision bears without a thought for them. */
 static const double FAR_PERIODS = 4.0 * HC_PERIODS_MAX;
