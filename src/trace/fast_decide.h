@@ -19,12 +19,13 @@ typedef struct trials {
 
 enum { TRIAL_WORDS = offsetof(trials, from) / (2 * HC_LANES * sizeof(int32_t)) };
 
-/* Sixteen of them, or lanes that have stopped: the cells, and where the rays are known to be in the
- * open, at s from t. */
+/* Sixteen of them, or lanes that have stopped: the cells and their corners (h00, h10, h01, h11), and
+ * where the rays are known to be in the open, at s from t. */
 typedef struct question {
     const int32_t *cell_x, *cell_y;
-    const float   *s;
-    const double  *from;
+    const float (*heights)[HC_LANES];
+    const float  *s;
+    const double *from;
 } question;
 
 /* What is found out about them. Neither hit nor clear: it could not be told. */
@@ -39,7 +40,6 @@ typedef struct verdict {
 /* Cells on their own: the first root, when and through which side the ray leaves, and when it would
  * leave through the other one. */
 typedef struct test {
-    float   corners[4][HC_LANES]; /* h00, h10, h01, h11 */
     double  t[HC_LANES], leave[HC_LANES], other[HC_LANES];
     int32_t hit[HC_LANES], open[HC_LANES];
     int32_t across[HC_LANES]; /* leaves along v */
@@ -49,51 +49,59 @@ typedef struct slab {
     double enter[HC_LANES], leave[HC_LANES];
 } slab;
 
-/* A ray that runs along the cells without being in them never enters. */
+/* A ray that runs along the cells enters and leaves at infinity, or never; where it is on their
+ * border, at NaN. */
 static inline void cut_slab(slab *way, const batch *b, int axis, const int32_t *cells)
 {
     for (int i = 0; i < HC_LANES; i++) {
-        const double origin    = b->origin[axis][i];
-        const double direction = b->direction[axis][i];
-        const double cell      = cells[i];
-        const double low       = (cell - origin) * b->inverse[axis][i];
-        const double high      = (cell + 1.0 - origin) * b->inverse[axis][i];
-        const bool   along     = direction == 0.0;
-        const bool   in        = (origin >= cell) & (origin < cell + 1.0);
-        const bool   up        = direction > 0.0;
-        const double first     = up ? low : high;
-        const double last      = up ? high : low;
-        way->enter[i]          = along ? (in ? -INFINITY : INFINITY) : first;
-        way->leave[i]          = along ? INFINITY : last;
+        const double origin  = b->origin[axis][i];
+        const double inverse = b->inverse[axis][i];
+        const double cell    = cells[i];
+        const double low     = (cell - origin) * inverse;
+        const double high    = (cell + 1.0 - origin) * inverse;
+        const bool   up      = inverse > 0.0;
+        way->enter[i]        = up ? low : high;
+        way->leave[i]        = up ? high : low;
     }
 }
 
-/* `begin` is where the ray is known to be in the open, in cells gone sideways since t = 0. */
-static inline void test_cells(const hc_fast *fast, const batch *b, const int32_t *cell_x,
-                              const int32_t *cell_y, const double *begin, test *out)
+static inline void store_corners(float out[4][HC_LANES], const corners *h)
 {
-    slab          x;
-    slab          y;
+    hc_v_store(out[0], h->h00);
+    hc_v_store(out[1], h->h10);
+    hc_v_store(out[2], h->h01);
+    hc_v_store(out[3], h->h11);
+}
+
+static inline void read_corners(float out[4][HC_LANES], const hc_fast *fast, const int32_t *cell_x,
+                                const int32_t *cell_y)
+{
     const corners h = find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
-    hc_v_store(out->corners[0], h.h00);
-    hc_v_store(out->corners[1], h.h10);
-    hc_v_store(out->corners[2], h.h01);
-    hc_v_store(out->corners[3], h.h11);
+    store_corners(out, &h);
+}
+
+/* `begin` is where the ray is known to be in the open, in cells gone sideways since t = 0. */
+static inline void test_cells(const batch *b, const int32_t *cell_x, const int32_t *cell_y,
+                              const float heights[4][HC_LANES], const double *begin, test *out)
+{
+    slab x;
+    slab y;
     cut_slab(&x, b, 0, cell_x);
     cut_slab(&y, b, 1, cell_y);
     for (int i = 0; i < HC_LANES; i++) {
-        const patch     p     = { (double)out->corners[0][i], (double)out->corners[1][i],
-                                  (double)out->corners[2][i], (double)out->corners[3][i] };
-        const double    dx    = b->direction[0][i];
-        const double    dy    = b->direction[1][i];
-        const double    dz    = b->direction[2][i];
-        const double    enter = greater(b->from[i], greater(x.enter[i], y.enter[i]));
-        const double    leave = lesser(b->to[i], lesser(x.leave[i], y.leave[i]));
+        const patch     p  = { (double)heights[0][i], (double)heights[1][i], (double)heights[2][i],
+                               (double)heights[3][i] };
+        const double    dx = b->direction[0][i];
+        const double    dy = b->direction[1][i];
+        const double    dz = b->direction[2][i];
+        const double    enter = greater(x.enter[i], greater(y.enter[i], b->from[i]));
+        const double    leave = lesser(x.leave[i], lesser(y.leave[i], b->to[i]));
         const quadratic q     = gap_on(&p, b->origin[0][i] + enter * dx - (double)cell_x[i],
                                        b->origin[1][i] + enter * dy - (double)cell_y[i],
                                        b->origin[2][i] + enter * dz, dx, dy, dz);
         const double    t     = enter + first_root(q);
-        const int32_t   in    = (begin[i] >= enter * b->run[i]) & (q.c > 0.0) & (leave >= enter);
+        const bool      ahead = (x.leave[i] >= enter) & (y.leave[i] >= enter) & (b->to[i] >= enter);
+        const int32_t   in    = (begin[i] >= enter * b->run[i]) & (q.c > 0.0) & ahead;
         out->t[i]             = t;
         out->leave[i]         = leave;
         out->other[i]         = greater(x.leave[i], y.leave[i]);
@@ -138,12 +146,14 @@ static inline void test_next(const hc_fast *fast, const batch *b, const question
                              const test *first, verdict *v)
 {
     test           next;
+    float          heights[4][HC_LANES];
     double         begin[HC_LANES];
     const unsigned on = next_cells(fast, b, first, v);
     for (int i = 0; i < HC_LANES; i++) {
         begin[i] = first->leave[i] * b->run[i];
     }
-    test_cells(fast, b, v->cell_x, v->cell_y, begin, &next);
+    read_corners(heights, fast, v->cell_x, v->cell_y);
+    test_cells(b, v->cell_x, v->cell_y, heights, begin, &next);
     for (int i = 0; i < HC_LANES; i++) {
         const double  way  = (next.leave[i] - c->from[i]) * b->run[i];
         const float   s    = (float)(way * (1.0 + 0x1p-22)); /* not before */
@@ -164,7 +174,7 @@ static inline void decide_cells(const hc_fast *fast, const batch *b, const quest
     for (int i = 0; i < HC_LANES; i++) {
         begin[i] = c->from[i] * b->run[i] + (double)c->s[i];
     }
-    test_cells(fast, b, c->cell_x, c->cell_y, begin, &first);
+    test_cells(b, c->cell_x, c->cell_y, c->heights, begin, &first);
     memset(v->clear, 0, sizeof v->clear);
     memcpy(v->t, first.t, sizeof v->t);
     memcpy(v->hit, first.hit, sizeof v->hit);

@@ -11,12 +11,13 @@ enum { NEAR_MIN = 6, DONE_MIN = HC_LANES < 4 ? 1 : 4 };
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
 
-/* Ask for sixteen of `count` items before they are needed. */
-static inline void ask_for(const void *items, size_t size, int32_t first, int32_t count)
+/* Ask for sixteen items before they are needed. There may be fewer: what lies behind them is
+ * fetched in vain. */
+static inline void ask_for(const void *items, size_t size, int32_t first)
 {
-    const int32_t end = count - first < HC_LANES ? count : first + HC_LANES;
-    for (size_t i = (size_t)first * size; i < (size_t)end * size; i += 64) {
-        __builtin_prefetch((const char *)items + i);
+    const uintptr_t start = (uintptr_t)items + (size_t)first * size;
+    for (size_t i = 0; i < HC_LANES * size; i += 64) {
+        __builtin_prefetch((const void *)(start + i));
     }
 }
 
@@ -36,8 +37,9 @@ static pack *load_group(job *j)
     p->group  = g;
     memset(p->cell_x, 0, sizeof p->cell_x); /* lanes that do not wait are looked at, too */
     memset(p->cell_y, 0, sizeof p->cell_y);
-    ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0], j->count);
-    ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES, j->count); /* after these groups */
+    memset(p->heights, 0, sizeof p->heights);
+    ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0]);
+    ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES); /* after these groups */
     return p;
 }
 
@@ -237,7 +239,9 @@ static void decide(job *j)
     }
     prepare_some(&b, j->fast, j->rays, c->which);
     if (j->plain) {
-        const question what = { c->cell_x, c->cell_y, c->s, c->from };
+        float          heights[4][HC_LANES];
+        const question what = { c->cell_x, c->cell_y, heights, c->s, c->from };
+        read_corners(heights, j->fast, c->cell_x, c->cell_y);
         decide_cells(j->fast, &b, &what, ALL_LANES, &v);
     }
     unsigned       rest = ALL_LANES >> (HC_LANES - count);
@@ -276,7 +280,7 @@ static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lane
 static void decide_group(job *j, pack *p)
 {
     const batch   *b    = &p->group->b;
-    const question what = { p->cell_x, p->cell_y, p->s, b->from };
+    const question what = { p->cell_x, p->cell_y, p->heights, p->s, b->from };
     verdict        v;
     hc_v_store(v.s, hc_v_set(0.0F)); /* read where nothing is clear, too */
     decide_cells(j->fast, b, &what, p->held, &v);
@@ -307,6 +311,11 @@ static void hold(pack *p, const sight *seen, unsigned lanes)
     hc_i_store(p->cell_x, x);
     hc_i_store(p->cell_y, y);
     hc_v_store(p->span, span);
+    const corners h = { hc_v_pick(lanes, seen->patch.h00, hc_v_load(p->heights[0])),
+                        hc_v_pick(lanes, seen->patch.h10, hc_v_load(p->heights[1])),
+                        hc_v_pick(lanes, seen->patch.h01, hc_v_load(p->heights[2])),
+                        hc_v_pick(lanes, seen->patch.h11, hc_v_load(p->heights[3])) };
+    store_corners(p->heights, &h);
     p->held |= lanes;
 }
 

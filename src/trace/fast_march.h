@@ -45,6 +45,7 @@ typedef struct pack {
     const group *group;
     int32_t      cell_x[HC_LANES], cell_y[HC_LANES];
     float        span[HC_LANES];
+    float        heights[4][HC_LANES]; /* of corners: h00, h10, h01, h11 */
 } pack;
 
 typedef struct place {
@@ -316,6 +317,7 @@ static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned l
 typedef struct sight {
     float    span[HC_LANES]; /* s until the cell is left                                   */
     int32_t  cell_x[HC_LANES], cell_y[HC_LANES];
+    corners  patch;
     unsigned clear; /* hit nothing on the cell                                     */
     unsigned below; /* are certainly below the surface when they leave, before the end */
 } sight;
@@ -391,6 +393,7 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const hc_v     sag     = hc_v_sub(hc_v_set(0.0F), hc_v_mul(twist, hc_v_mul(run_x, run_y)));
     const hc_v     over    = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
     const hc_v     slack   = slack_at(fast, p, &at, out, &h, lanes);
+    seen->patch            = h;
     seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
     seen->below            = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
                   & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;

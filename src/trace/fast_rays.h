@@ -66,20 +66,18 @@ static inline void place_rays(batch *b, const hc_fast *fast, float columns[HC_RO
     }
 }
 
-/* Cut to the field's ends along an unwrapped axis. */
+/* Cut to the field's ends along an unwrapped axis. A ray along them meets them at infinity, or,
+ * where it is on one of them, at NaN, which cuts nothing. */
 static inline void cut_sides(batch *b, int axis, const hc_fast_axis *a)
 {
     for (int i = 0; i < HC_LANES; i++) {
-        const double origin = b->origin[axis][i];
-        const double low    = (a->low - origin) * b->inverse[axis][i];
-        const double high   = (a->high - origin) * b->inverse[axis][i];
-        const bool   along  = b->direction[axis][i] == 0.0;
-        const bool   beyond = (origin < a->low) | (origin > a->high);
-        const double never  = beyond ? INFINITY : -INFINITY;
-        const double enter  = along ? never : lesser(low, high);
-        const double leave  = along ? INFINITY : greater(low, high);
-        b->from[i]          = greater(enter, b->from[i]);
-        b->to[i]            = lesser(leave, b->to[i]);
+        const double origin  = b->origin[axis][i];
+        const double inverse = b->inverse[axis][i];
+        const double low     = (a->low - origin) * inverse;
+        const double high    = (a->high - origin) * inverse;
+        const bool   up      = inverse > 0.0;
+        b->from[i]           = greater(up ? low : high, b->from[i]);
+        b->to[i]             = lesser(up ? high : low, b->to[i]);
     }
 }
 
