@@ -4,6 +4,8 @@
 
 #include <stdlib.h>
 
+enum { BATCH, SINGLE };
+
 typedef struct scene {
     hc_tracer *tracer;
     double     bytes;
@@ -39,18 +41,30 @@ static double bytes(const void *state)
 
 static void nearest(const void *state, int mode, hc_hit *hits, const hc_ray *rays, size_t count)
 {
-    (void)mode;
-    hc_trace_nearest_many(((const scene *)state)->tracer, hits, rays, count);
+    const hc_tracer *tracer = ((const scene *)state)->tracer;
+    if (mode == BATCH) {
+        hc_trace_nearest_many(tracer, hits, rays, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        (void)hc_trace_nearest(tracer, &hits[i], &rays[i]);
+    }
 }
 
 static void any(const void *state, int mode, uint8_t *hit, const hc_ray *rays, size_t count)
 {
-    (void)mode;
-    hc_trace_any_many(((const scene *)state)->tracer, hit, rays, count);
+    const hc_tracer *tracer = ((const scene *)state)->tracer;
+    if (mode == BATCH) {
+        hc_trace_any_many(tracer, hit, rays, count);
+        return;
+    }
+    for (size_t i = 0; i < count; i++) {
+        hit[i] = hc_trace_any(tracer, &rays[i]) ? 1 : 0;
+    }
 }
 
 const hc_bench_peer hc_peer_fast = { .name    = "fast",
-                                     .modes   = { "" },
+                                     .modes   = { [BATCH] = "batch", [SINGLE] = "single" },
                                      .share   = 1,
                                      .create  = create,
                                      .destroy = destroy,

@@ -2,6 +2,10 @@
 #ifndef HC_BASE_SIMD_ONE_H
 #define HC_BASE_SIMD_ONE_H
 
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
 typedef float   hc_v;
 typedef int32_t hc_i;
 
@@ -41,7 +45,11 @@ HC_ONE(hc_i, hc_i_left, (hc_i a, hc_i b), (int32_t)((uint32_t)a << b))
 HC_ONE(hc_i, hc_i_right, (hc_i a, hc_i b), (int32_t)((uint32_t)a >> b))
 HC_ONE(hc_i, hc_i_lookup, (const int32_t *table, hc_i index), table[index])
 HC_ONE(unsigned, hc_i_differ, (hc_i a, hc_i b), a != b)
+#if defined(__SSE2__)
+HC_ONE(hc_i, hc_i_from_v, (hc_v a), _mm_cvttss_si32(_mm_set_ss(a)))
+#else
 HC_ONE(hc_i, hc_i_from_v, (hc_v a), fabsf(a) < 0x1p31F ? (int32_t)a : INT32_MIN)
+#endif
 HC_ONE(hc_v, hc_v_from_i, (hc_i a), (float)a)
 HC_ONE(hc_v, hc_v_gather, (const float *base, hc_i index, unsigned lanes),
        (lanes & 1) != 0 ? base[index] : 0.0F)

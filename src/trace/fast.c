@@ -165,7 +165,7 @@ void hc_fast_tolerance(const hc_fast *fast, double *rise, double *reach)
 }
 
 /* Fewer rays than this are sooner done one by one than in sixteen lanes. */
-enum { FEW = 3 };
+enum { FEW = 5 };
 
 static hc_fast_march *kernel_of(const hc_fast *fast, size_t count)
 {

@@ -52,14 +52,21 @@ static void row_done(void *user, const hc_bench_trace_row *row)
     hc_cli_run_flush(r);
 }
 
-/* The fastest of others on the rays of `like`; NULL: there is none. */
+static bool same_rays(const hc_bench_trace_row *a, const hc_bench_trace_row *b)
+{
+    return a->side == b->side && a->field == b->field && strcmp(a->rays, b->rays) == 0;
+}
+
+/* The fastest of others on the rays of `like`; single rays are compared with single rays. NULL:
+ * there is none. */
 static const hc_bench_trace_row *best_other(const hc_cli_run *r, const hc_bench_trace_row *like)
 {
-    const hc_bench_trace_row *best = NULL;
+    const hc_bench_trace_row *best   = NULL;
+    const bool                single = strcmp(like->mode, "single") == 0;
     for (int i = 0; i < r->count; i++) {
         const hc_bench_trace_row *row = row_at(r, i);
-        if (row->side == like->side && row->field == like->field && row->threads == like->threads
-            && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") != 0
+        if (same_rays(row, like) && row->threads == like->threads
+            && strcmp(row->caster, "fast") != 0 && (!single || strcmp(row->mode, "single") == 0)
             && (best == NULL || row->rays_per_second > best->rays_per_second)) {
             best = row;
         }
@@ -71,8 +78,8 @@ static const hc_bench_trace_row *other_threads(const hc_cli_run *r, const hc_ben
 {
     for (int i = 0; i < r->count; i++) {
         const hc_bench_trace_row *row = row_at(r, i);
-        if (row->side == like->side && row->field == like->field && row->threads > 1
-            && strcmp(row->rays, like->rays) == 0 && strcmp(row->caster, "fast") == 0) {
+        if (same_rays(row, like) && row->threads > 1 && strcmp(row->caster, "fast") == 0
+            && strcmp(row->mode, like->mode) == 0) {
             return row;
         }
     }
@@ -87,7 +94,8 @@ static void add_figure(hc_cli_run *r, cJSON *list, const hc_bench_trace_row *row
     (void)cJSON_AddStringToObject(object, "field", row->field);
     (void)cJSON_AddNumberToObject(object, "side", row->side);
     (void)cJSON_AddStringToObject(object, "rays", row->rays);
-    hc_cli_say(r->cli, "%-10s %5d %-7s", row->field, row->side, row->rays);
+    (void)cJSON_AddStringToObject(object, "mode", row->mode);
+    hc_cli_say(r->cli, "%-10s %5d %-7s %-8s", row->field, row->side, row->rays, row->mode);
     if (more != NULL) {
         const double gain = more->rays_per_second / row->rays_per_second;
         (void)cJSON_AddNumberToObject(object, "threads_speedup", gain);
@@ -111,8 +119,8 @@ static void add_figure(hc_cli_run *r, cJSON *list, const hc_bench_trace_row *row
 static void add_figures(hc_cli_run *r)
 {
     cJSON *list = cJSON_AddArrayToObject(r->cli->json, "figures");
-    hc_cli_say(r->cli, "\n%-10s %5s %-7s %10s %10s  %s\n", "field", "side", "rays", "threads",
-               "over best", "other caster (make bench-peers)");
+    hc_cli_say(r->cli, "\n%-10s %5s %-7s %-8s %10s %10s  %s\n", "field", "side", "rays", "mode",
+               "threads", "over best", "other caster (make bench-peers)");
     for (int i = 0; i < r->count; i++) {
         if (strcmp(row_at(r, i)->caster, "fast") == 0 && row_at(r, i)->threads == 1) {
             add_figure(r, list, row_at(r, i));
