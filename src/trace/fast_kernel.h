@@ -6,8 +6,12 @@
  * rays of a beam stay together instead, and are decided where they stand. */
 #include "fast_queue.h"
 
-/* Lanes to gather before they are looked at together, and before they take new rays. */
-enum { NEAR_MIN = 6, DONE_MIN = HC_LANES < 4 ? 1 : 4 };
+static const pace marching = { .near = 4, .done = 2, .rounds = 4, .few_rounds = 2 };
+
+/* Over towers: the more rays glide together the better. */
+static const pace gliding = { .near = 6, .done = 4, .rounds = 1, .few_rounds = 1 };
+
+static const pace single = { .near = 1, .done = 1, .rounds = 4, .few_rounds = 4 };
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
 
@@ -386,7 +390,7 @@ static inline void see_to(job *j, int slot)
         end_segments(j, p, ended);
     }
     const unsigned ready  = p->active & ~p->held;
-    const int      enough = p->group != NULL ? 1 : NEAR_MIN;
+    const int      enough = p->group != NULL ? 1 : j->pace.near;
     if (__builtin_popcount(p->near) >= enough || (p->near != 0 && p->near == ready)) {
         see_near(j, p);
     }
@@ -394,7 +398,7 @@ static inline void see_to(job *j, int slot)
         decide_group(j, p);
     }
     const unsigned idle = ~p->active & ALL_LANES;
-    if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : DONE_MIN) && has_more(j)) {
+    if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : j->pace.done) && has_more(j)) {
         refill(j, slot, idle);
     }
     if (j->fast->towers.listed) {
@@ -403,11 +407,12 @@ static inline void see_to(job *j, int slot)
 }
 
 /* Not those at the end: how often a ray is marched must not depend on when it is seen to. All
- * blocks are asked for before any is waited for. */
-static inline void march_all(job *j, ground kind)
+ * blocks are asked for before any is waited for. False if there are none. */
+static inline bool march_all(job *j, ground kind)
 {
     standing on[PACKS];
     unsigned ready[PACKS];
+    unsigned some = 0;
     for (int k = 0; k < PACKS; k++) {
         const pack    *p      = j->packs[k];
         const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
@@ -415,11 +420,21 @@ static inline void march_all(job *j, ground kind)
         if (ready[k] != 0) { /* of a single ray's packs, one */
             on[k] = find_blocks(j->fast, p, ready[k]);
         }
+        some |= ready[k];
     }
     for (int k = 0; k < PACKS; k++) {
         if (ready[k] != 0) {
             march(j->fast, j->packs[k], ready[k], &on[k], kind);
         }
+    }
+    return some != 0;
+}
+
+static inline void march_on(job *j, ground kind)
+{
+    const bool few    = j->answer.any != NULL || j->group_count > 0;
+    const int  rounds = few ? j->pace.few_rounds : j->pace.rounds;
+    for (int k = 0; k < rounds && march_all(j, kind); k++) {
     }
 }
 
@@ -462,11 +477,11 @@ static void go_through(job *j)
                 return;
             }
         } else if (j->fast->steps) {
-            march_all(j, GROUND_STEPS);
+            march_on(j, GROUND_STEPS);
         } else if (j->fast->sparse) {
-            march_all(j, GROUND_SPARSE);
+            march_on(j, GROUND_SPARSE);
         } else {
-            march_all(j, GROUND_PATCHES);
+            march_on(j, GROUND_PATCHES);
         }
     }
 }
@@ -476,6 +491,7 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
     job j;
     start(&j);
     j.fast   = fast;
+    j.pace   = HC_LANES == 1 ? single : fast->towers.listed ? gliding : marching;
     j.answer = answer;
     j.rays   = rays;
     j.count  = (int32_t)count;

@@ -28,8 +28,16 @@ typedef struct leftover {
     double  t;
 } leftover;
 
+/* Lanes to gather before they are looked at together, and before they take new rays; rounds of
+ * marching before lanes are seen to, of rays of any kind that ask for their nearest hit, and of
+ * others, which have shorter ways or wait for each other. */
+typedef struct pace {
+    int near, done, rounds, few_rounds;
+} pace;
+
 typedef struct job {
     const hc_fast *fast;
+    pace           pace;
     hc_fast_answer answer;
     const hc_ray  *rays;
     int32_t        count, taken;
