@@ -51,13 +51,14 @@ static inline void find_box(float low[BOX], float high[BOX], const group *g)
     const hc_v           dx           = hc_v_load(q->dx);
     const hc_v           dy           = hc_v_load(q->dy);
     const hc_v           dz           = hc_v_load(q->dz);
-    const hc_v           of_rays[BOX] = {
-                  go_back(g, q->x, dx),          go_back(g, q->y, dy), go_back(g, q->z, dz), dx, dy, dz, s,
-                  hc_v_add(hc_v_load(q->end), s)
-    };
-    const hc_v least = hc_v_set(-INFINITY);
-    hc_v       rows[2 * BOX];
-    float      highest[2 * BOX];
+    const hc_v           x            = go_back(g, q->x, dx);
+    const hc_v           y            = go_back(g, q->y, dy);
+    const hc_v           z            = go_back(g, q->z, dz);
+    const hc_v           end          = hc_v_add(hc_v_load(q->end), s);
+    const hc_v           of_rays[BOX] = { x, y, z, dx, dy, dz, s, end };
+    const hc_v           least        = hc_v_set(-INFINITY);
+    hc_v                 rows[2 * BOX];
+    float                highest[2 * BOX];
     for (int k = 0; k < BOX; k++) {
         rows[k]       = hc_v_pick(g->lanes, of_rays[k], least);
         rows[BOX + k] = hc_v_pick(g->lanes, hc_v_sub(hc_v_set(0.0F), of_rays[k]), least);

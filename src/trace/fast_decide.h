@@ -19,8 +19,8 @@ typedef struct trials {
 
 enum { TRIAL_WORDS = offsetof(trials, from) / (2 * HC_LANES * sizeof(int32_t)) };
 
-/* Sixteen of them, or lanes that have stopped: the cells and their corners (h00, h10, h01, h11), and
- * where the rays are known to be in the open, at s from t. */
+/* Sixteen of them, or lanes that have stopped: the cells and their corners (h00, h10, h01, h11),
+ * and where the rays are known to be in the open, at s from t. */
 typedef struct question {
     const int32_t *cell_x, *cell_y;
     const float (*heights)[HC_LANES];

@@ -1,5 +1,5 @@
-/* Single rays: what the lanes do, by the same formulas, but one thing after the other. Rays that need
- * care on their way, through periods, open sides and over steps, go through a single lane. */
+/* Single rays: what the lanes do, by the same formulas, but one thing after the other. Rays that
+ * need care on their way, through periods, open sides and over steps, go through a single lane. */
 #define HC_LANES 1
 #define HC_FAST_KERNEL march_lane
 

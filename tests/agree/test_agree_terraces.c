@@ -54,8 +54,8 @@ static void terraces_are_exact(void **state)
     }
 }
 
-/* Two peaks that differ by one unit of float, above a ground whose own unit is finer: less the ground
- * both would round to the same. */
+/* Two peaks that differ by one unit of float, above a ground whose own unit is finer: less the
+ * ground both would round to the same. */
 static void the_higher_of_two_like_peaks_counts(void **state)
 {
     (void)state;
