@@ -6,37 +6,48 @@
 #include "exact_hull.h"
 #include "exact_samples.h"
 
-/* What a part's samples say about places at a distance along a unit vector, both measured from the
- * part's middle: to be useful, a place must rise above
+/* A square of 16 x 16 samples is a node of level 1: 4 x 4 blocks. */
+#define SQUARE_SIDE 16.0F
+
+/* What the samples of a part, or of all parts, say about places at a distance along a vector of at
+ * most one unit, both measured from the samples' middle: to be useful, a place must rise above
  *   height + slope * distance + lean_u * unit_u + lean_v * unit_v
- * of one of the samples. */
+ * of one of them. */
 typedef struct lines {
-    float height[HC_LANES], slope[HC_LANES], lean_u[HC_LANES], lean_v[HC_LANES];
+    float height[HC_TILE_PARTS * HC_LANES], slope[HC_TILE_PARTS * HC_LANES];
+    float lean_u[HC_TILE_PARTS * HC_LANES], lean_v[HC_TILE_PARTS * HC_LANES];
     float least_slope; /* of the samples that something can limit */
 } lines;
 
-INLINE void draw_lines(const tile *t, int part, lines *l)
+INLINE void draw_lines(const tile *t, int first, int parts, lines *l)
 {
-    const hc_v     middle = hc_v_set(1.5F);
-    const hc_v     slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
-    const hc_v     rows   = hc_v_mul(slope, hc_v_set(t->aspect));
-    const unsigned rising = hc_v_greater(slope, hc_v_set(0.0F)); /* level lines are exact */
-    const hc_v     margin = hc_v_keep(rising, hc_v_set(t->pass->tree->range * 0x1p-19F));
-    hc_v_store(l->height, hc_v_sub(t->lifted[part], margin));
-    hc_v_store(l->slope, slope);
-    hc_v_store(l->lean_u, hc_v_mul(slope, hc_v_sub(middle, hc_v_load(COLUMN))));
-    hc_v_store(l->lean_v, hc_v_mul(rows, hc_v_sub(middle, hc_v_load(ROW))));
-    const unsigned limited = hc_v_greater(hc_v_set(0.5F * ABOVE_ALL), t->lifted[part]);
-    l->least_slope         = hc_v_lowest(hc_v_pick(limited, slope, hc_v_set(0x1p60F)));
+    hc_v least = hc_v_set(0x1p60F);
+    for (int i = 0; i < parts; i++) {
+        const int      part   = first + i;
+        const hc_v     slope  = hc_v_mul(t->T[part], hc_v_set(t->pass->step_u));
+        const hc_v     rows   = hc_v_mul(slope, hc_v_set(t->aspect));
+        const unsigned rising = hc_v_greater(slope, hc_v_set(0.0F)); /* level lines are exact */
+        const hc_v     margin = hc_v_keep(rising, hc_v_set(t->pass->tree->range * 0x1p-19F));
+        const float    u      = parts == 1 ? 1.5F : MIDDLE - (float)(4 * (part & 1));
+        const float    v      = parts == 1 ? 1.5F : MIDDLE - (float)(4 * (part >> 1));
+        hc_v_store(l->height + HC_LANES * i, hc_v_sub(t->lifted[part], margin));
+        hc_v_store(l->slope + HC_LANES * i, slope);
+        hc_v_store(l->lean_u + HC_LANES * i,
+                   hc_v_mul(slope, hc_v_sub(hc_v_set(u), hc_v_load(COLUMN))));
+        hc_v_store(l->lean_v + HC_LANES * i, hc_v_mul(rows, hc_v_sub(hc_v_set(v), hc_v_load(ROW))));
+        const unsigned limited = hc_v_greater(hc_v_set(0.5F * ABOVE_ALL), t->lifted[part]);
+        least                  = hc_v_min(hc_v_pick(limited, slope, hc_v_set(0x1p60F)), least);
+    }
+    l->least_slope = hc_v_lowest(least);
 }
 
-/* From a part's middle to the nearest points of sixteen blocks. */
+/* From the middle of the samples to sixteen places. */
 typedef struct bearings {
     hc_v unit_u, unit_v, distance;
 } bearings;
 
-/* The lowest of a part's lines at the blocks' nearest points. Not inline: compilers would broadcast
- * all lines into memory before the loop over the list, which is short. */
+/* The lowest of a part's lines at sixteen places. Not inline: compilers would broadcast all lines
+ * into memory before the loop over the list, which is short. */
 static __attribute__((noinline)) hc_v lowest_lines(const lines *l, const bearings *b)
 {
     const hc_v above   = hc_v_set(ABOVE_ALL);
@@ -48,6 +59,31 @@ static __attribute__((noinline)) hc_v lowest_lines(const lines *l, const bearing
         lows[p % 2] = hc_v_min(v, lows[p % 2]);
     }
     return hc_v_min(lows[0], lows[1]);
+}
+
+/* The lowest of a tile's lines at sixteen places, and how much higher it is at places `length`
+ * farther away: the least of lines is concave, so that it lies above its chord between both. At
+ * most `most`, which keeps chords precise. */
+typedef struct chords {
+    hc_v low, rise;
+} chords;
+
+static __attribute__((noinline)) chords draw_chords(const lines *l, const bearings *b, hc_v length,
+                                                    float most)
+{
+    const hc_v above   = hc_v_set(most);
+    hc_v       lows[2] = { above, above };
+    hc_v       ends[2] = { above, above };
+    for (int p = 0; p < HC_TILE_PARTS * HC_LANES; p++) {
+        const hc_v slope = hc_v_set(l->slope[p]);
+        hc_v       v     = hc_v_about_muladd(b->distance, slope, hc_v_set(l->height[p]));
+        v                = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
+        v                = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
+        lows[p % 2]      = hc_v_min(v, lows[p % 2]);
+        ends[p % 2]      = hc_v_min(hc_v_about_muladd(length, slope, v), ends[p % 2]);
+    }
+    const hc_v low = hc_v_min(lows[0], lows[1]);
+    return (chords){ low, hc_v_sub(hc_v_min(ends[0], ends[1]), low) };
 }
 
 /* Gaps from a part's middle to sixteen listed blocks, in columns or rows; negative to the left and
@@ -104,43 +140,109 @@ INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int 
     return useful;
 }
 
+/* Planes over the 4 x 4 entries of sixteen squares or blocks: `low` at the nearest corner, rising
+ * by `rise` from one entry to the next one straight ahead. */
+INLINE void draw_planes(const tile *t, const bearings *b, hc_v low, hc_v rise,
+                        hc_block_choice *chosen, int first)
+{
+    const hc_v zero   = hc_v_set(0.0F);
+    const hc_v rise_u = hc_v_mul(rise, b->unit_u);
+    const hc_v rise_v = hc_v_mul(rise, hc_v_mul(b->unit_v, hc_v_set(t->aspect)));
+    const hc_v back   = hc_v_add(hc_v_min(rise_u, zero), hc_v_min(rise_v, zero));
+    hc_v_store(chosen->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), low));
+    hc_v_store(chosen->rise_u + first, rise_u);
+    hc_v_store(chosen->rise_v + first, rise_v);
+}
+
 /* Choose what a part needs of a list. From a block's nearest point on, no line rises less than the
- * least slope does, which makes a plane over the block's samples. No branch depends on what is
- * found; nobody could predict it. */
+ * least slope does. No branch depends on what is found; nobody could predict it. */
 INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list,
                           hc_block_choice *chosen)
 {
-    const hc_v  zero = hc_v_set(0.0F);
-    const float u    = (float)(t->x + 4 * (part & 1)) + 1.5F;
-    const float v    = (float)(t->y + 4 * (part >> 1)) + 1.5F;
+    const float u = (float)(t->x + 4 * (part & 1)) + 1.5F;
+    const float v = (float)(t->y + 4 * (part >> 1)) + 1.5F;
     lines       l;
-    draw_lines(t, part, &l);
-    const hc_v rise = hc_v_set(l.least_slope);
-    chosen->count   = 0;
+    draw_lines(t, part, 1, &l);
+    chosen->count = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
-        const hc_v     gap_u  = block_gaps(list->x + first, u);
-        const hc_v     gap_v  = block_gaps(list->y + first, v);
-        const bearings b      = take_bearings(k, t, gap_u, gap_v);
-        const hc_v     low    = lowest_lines(&l, &b);
-        const hc_v     rise_u = hc_v_mul(rise, b.unit_u);
-        const hc_v     rise_v = hc_v_mul(rise, hc_v_mul(b.unit_v, hc_v_set(t->aspect)));
-        const hc_v     back   = hc_v_add(hc_v_min(rise_u, zero), hc_v_min(rise_v, zero));
-        const unsigned found  = hc_v_greater(hc_v_load(list->top + first), low)
+        const hc_v     gap_u = block_gaps(list->x + first, u);
+        const hc_v     gap_v = block_gaps(list->y + first, v);
+        const bearings b     = take_bearings(k, t, gap_u, gap_v);
+        const hc_v     low   = lowest_lines(&l, &b);
+        const unsigned found = hc_v_greater(hc_v_load(list->top + first), low)
                                & useful_lanes(k, t, gap_u, gap_v, list->count - first);
-        hc_v_store(chosen->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), low));
-        hc_v_store(chosen->rise_u + first, rise_u);
-        hc_v_store(chosen->rise_v + first, rise_v);
+        draw_planes(t, &b, low, hc_v_set(l.least_slope), chosen, first);
+        chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found, LANE_INDEX, first);
+    }
+}
+
+/* From the tile's middle to sixteen squares: towards their middles, in which direction alone their
+ * blocks are measured. The distance, to the nearest corner, may be negative; that covers little, so
+ * that vectors are shorter by more than all rounding. */
+typedef struct headings {
+    bearings to;
+    hc_v     step; /* farther away for each block in both directions */
+} headings;
+
+INLINE headings take_headings(kind k, const tile *t, hc_v across, hc_v down)
+{
+    const hc_v shorter = hc_v_set(1.0F - 0x1p-16F);
+    const hc_v aspect  = hc_v_set(t->aspect);
+    const hc_v rows    = hc_v_mul(down, aspect);
+    bearings   to;
+    if (k.quadrant) {
+        to.unit_u = hc_v_mul(hc_v_set((float)t->pass->sign_u), shorter);
+        to.unit_v = hc_v_mul(hc_v_set((float)t->pass->sign_v), shorter);
+    } else if (k.diamond) {
+        const hc_v eighth = hc_v_set(0.125F);
+        to.unit_u         = hc_v_mul(sign_of(hc_v_mul(across, eighth)), shorter);
+        to.unit_v         = hc_v_mul(sign_of(hc_v_mul(down, eighth)), shorter);
+    } else {
+        const hc_v size = hc_v_max(measure(k, across, rows), hc_v_set(0x1p-40F));
+        const hc_v root = hc_v_mul(hc_v_about_rsqrt(size), shorter);
+        to.unit_u       = hc_v_mul(across, root);
+        to.unit_v       = hc_v_mul(rows, root);
+    }
+    const hc_v v      = hc_v_mul(to.unit_v, aspect);
+    const hc_v both   = hc_v_add(hc_v_abs(to.unit_u), hc_v_abs(v));
+    const hc_v middle = hc_v_about_muladd(to.unit_u, across, hc_v_mul(v, down));
+    to.distance       = hc_v_about_muladd(both, hc_v_set(-0.5F * (SQUARE_SIDE - 1)), middle);
+    return (headings){ to, hc_v_max(hc_v_mul(both, hc_v_set(4.0F)), hc_v_set(0x1p-60F)) };
+}
+
+/* Choose what a tile needs of the waiting squares, from number `done` on. Level lines are exact
+ * only if nothing is added to them. */
+INLINE void choose_squares(kind k, const tile *t, const hc_node_list *list, int done,
+                           hc_block_choice *chosen)
+{
+    const hc_v  side = hc_v_set(SQUARE_SIDE);
+    const hc_v  u    = hc_v_set(0.5F * (SQUARE_SIDE - 1) - MIDDLE - (float)t->x);
+    const hc_v  v    = hc_v_set(0.5F * (SQUARE_SIDE - 1) - MIDDLE - (float)t->y);
+    const float most = 2.0F * t->pass->tree->range;
+    lines       l;
+    draw_lines(t, 0, HC_TILE_PARTS, &l);
+    const unsigned rising = l.least_slope > 0.0F ? 0xFFFFU : 0;
+    chosen->count         = 0;
+    for (int first = done; first < list->count; first += HC_LANES) {
+        const hc_v     across = hc_v_about_muladd(hc_v_from_ints(list->x + first), side, u);
+        const hc_v     down   = hc_v_about_muladd(hc_v_from_ints(list->y + first), side, v);
+        const headings h      = take_headings(k, t, across, down);
+        const chords   c      = draw_chords(&l, &h.to, hc_v_mul(h.step, hc_v_set(3.0F)), most);
+        const hc_v     rise   = hc_v_mul(hc_v_about_over(c.rise, h.step), hc_v_set(4.0F / 3.0F));
+        const unsigned found =
+            hc_v_greater(hc_v_load(list->top + first), c.low) & lanes_left(list->count - first);
+        draw_planes(t, &h.to, c.low, hc_v_keep(rising, rise), chosen, first);
         chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found, LANE_INDEX, first);
     }
 }
 
 /* Distant blocks that a part's own envelope does not rule out. Few are left as they are: drawing it
- * takes as long as two times sixteen blocks. */
+ * takes as long as two times sixteen blocks. For round cones it never pays. */
 INLINE const hc_node_list *sift_distant(kind k, const tile *t, int part)
 {
     const hc_node_list *list   = &t->scratch->lists[0];
     hc_node_list       *sifted = &t->scratch->sifted;
-    if (list->count <= 2 * HC_LANES) {
+    if (!k.diamond || list->count <= 2 * HC_LANES) {
         return list;
     }
     const envelope hull = draw_envelope(t, part, 1);
@@ -152,7 +254,7 @@ INLINE const hc_node_list *sift_distant(kind k, const tile *t, int part)
         const hc_v across = hc_v_sub(hc_v_mul(hc_v_from_ints(list->x + i), four), x);
         const hc_v down   = hc_v_sub(hc_v_mul(hc_v_from_ints(list->y + i), four), y);
         const hc_v tops   = hc_v_load(list->top + i);
-        unsigned   found  = promising(k, t, &hull, 4, across, down, tops, 4);
+        unsigned   found  = promising(k, t, &hull, 3.0F, across, down, tops);
         found &= lanes_left(list->count - i);
         (void)hc_pack_lanes(sifted->x + n, found, list->x + i, 0);
         (void)hc_pack_v(sifted->top + n, found, tops);
@@ -167,15 +269,19 @@ INLINE const float *listed_samples(const tile *t, const hc_node_list *list, int 
     return hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]);
 }
 
-/* Which samples of listed block b rise above its plane. */
-INLINE unsigned samples_above(const tile *t, const hc_block_choice *chosen, int b,
-                              const float *samples)
+/* Which entries of listed square b rise above its plane. */
+INLINE unsigned above_plane(const hc_block_choice *chosen, int b, hc_v tops)
 {
-    const hc_v tops  = hc_v_sub(hc_v_load(samples), hc_v_set(t->pass->tree->base));
     const hc_v row   = hc_v_about_muladd(hc_v_load(COLUMN), hc_v_set(chosen->rise_u[b]),
                                          hc_v_set(chosen->start[b]));
     const hc_v plane = hc_v_about_muladd(hc_v_load(ROW), hc_v_set(chosen->rise_v[b]), row);
     return hc_v_greater(tops, plane);
+}
+
+INLINE unsigned samples_above(const tile *t, const hc_block_choice *chosen, int b,
+                              const float *samples)
+{
+    return above_plane(chosen, b, hc_v_sub(hc_v_load(samples), hc_v_set(t->pass->tree->base)));
 }
 
 /* From the weights of a block's first sample to those of the others. */

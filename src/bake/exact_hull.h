@@ -39,26 +39,33 @@ INLINE envelope draw_envelope(const tile *t, int first, int parts)
     return drawn;
 }
 
-/* Which of sixteen squares, `side` samples large, may hold something for a square of `viewers`
- * samples. across, down: from middle to middle; tops: the squares' highest samples, minus base. */
-INLINE unsigned promising(kind k, const tile *t, const envelope *hull, int viewers, hc_v across,
-                          hc_v down, hc_v tops, int side)
+/* Squares that reach into the quadrant of one viewer at least. across, down: from the viewers'
+ * middle to the squares'; `reach` of that both are large. */
+INLINE unsigned reached_lanes(kind k, const tile *t, hc_v across, hc_v down, float reach)
+{
+    if (!k.quadrant) {
+        return 0xFFFFU;
+    }
+    const hc_v beyond = hc_v_set(-reach);
+    return ~(hc_v_greater(beyond, hc_v_mul(across, hc_v_set((float)t->pass->sign_u)))
+             | hc_v_greater(beyond, hc_v_mul(down, hc_v_set((float)t->pass->sign_v))));
+}
+
+/* Which of sixteen squares may hold something for a square of viewers. tops: the squares' highest
+ * samples, minus base. */
+INLINE unsigned promising(kind k, const tile *t, const envelope *hull, float reach, hc_v across,
+                          hc_v down, hc_v tops)
 {
     const hc_v zero  = hc_v_set(0.0F);
-    const hc_v half  = hc_v_set(0.5F * (float)(viewers + side - 2));
+    const hc_v half  = hc_v_set(reach);
     const hc_v gap_u = hc_v_max(hc_v_sub(hc_v_abs(across), half), zero);
     const hc_v rows  = hc_v_max(hc_v_sub(hc_v_abs(down), half), zero);
     const hc_v size  = measure(k, gap_u, hc_v_mul(rows, hc_v_set(t->aspect)));
     const hc_v bound =
         hc_v_about_line(hull->offsets, hull->slopes, k.diamond ? size : hc_v_about_sqrt(size),
                         PIECE_SHIFT, PIECE_FIRST);
-    unsigned found = hc_v_greater(tops, hc_v_min(bound, hc_v_set(hull->level)));
-    if (k.quadrant) {
-        const hc_v beyond = hc_v_sub(zero, half);
-        found &= ~hc_v_greater(beyond, hc_v_mul(across, hc_v_set((float)t->pass->sign_u)));
-        found &= ~hc_v_greater(beyond, hc_v_mul(down, hc_v_set((float)t->pass->sign_v)));
-    }
-    return found;
+    return hc_v_greater(tops, hc_v_min(bound, hc_v_set(hull->level)))
+           & reached_lanes(k, t, across, down, reach);
 }
 
 #endif

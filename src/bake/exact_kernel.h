@@ -25,7 +25,7 @@ INLINE void guess(kind k, tile *t)
             hc_v_sub(hc_v_load(scratch->recent.y + i), hc_v_set((float)t->y + MIDDLE));
         const hc_v tops =
             hc_v_sub(hc_v_load(scratch->recent.height + i), hc_v_set(t->pass->tree->base));
-        others |= promising(k, t, &t->hull, HC_TILE_SIDE, across, down, tops, 1) << i;
+        others |= promising(k, t, &t->hull, MIDDLE, across, down, tops) << i;
     }
     const unsigned more    = guess_from_all(k, t, others & ~first);
     scratch->recent.useful = useful | more;
@@ -34,8 +34,9 @@ INLINE void guess(kind k, tile *t)
 
 /* ---- the tree ---- */
 
-/* From as many waiting nodes on, guesses from them pay. */
-enum { GUESSING_NODES = 24 };
+/* From as many waiting nodes on, guesses from them pay, and chords in the directions of squares
+ * (nodes of level 1). */
+enum { GUESSING_NODES = 24, MANY_SQUARES = 12 };
 
 INLINE void list_children(hc_node_list *list, unsigned found, int x, int y, const float *entries)
 {
@@ -71,7 +72,7 @@ typedef struct node_places {
 } node_places;
 
 /* A node's highest sample is no farther away than its farthest corner: its steepness there is a
- * threshold. */
+ * threshold. Few nodes are high enough for that to be above the envelope. */
 INLINE void guess_from_places(kind k, tile *t, int part, const node_places *from, int count,
                               float half)
 {
@@ -104,16 +105,29 @@ INLINE void guess_from_nodes(kind k, tile *t, int level, const hc_node_list *lis
                                                   hc_v_set(half - (float)t->x - MIDDLE));
         const hc_v     down   = hc_v_about_muladd(hc_v_from_ints(list->y + first), hc_v_set(side),
                                                   hc_v_set(half - (float)t->y - MIDDLE));
-        const unsigned sure =
-            sure_lanes(k, t, across, down, half) & lanes_left(list->count - first);
+        const hc_v     tops   = hc_v_load(list->top + first);
+        const unsigned sure = sure_lanes(k, t, across, down, half) & lanes_left(list->count - first)
+                              & promising(k, t, &t->hull, MIDDLE - half, across, down, tops);
         (void)hc_pack_v(from.across + count, sure, across);
         (void)hc_pack_v(from.down + count, sure, down);
-        count += hc_pack_v(from.top + count, sure, hc_v_load(list->top + first));
+        count += hc_pack_v(from.top + count, sure, tops);
+    }
+    if (count == 0) {
+        return;
     }
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         guess_from_places(k, t, part, &from, count, half);
     }
     t->stale = true;
+}
+
+/* Blocks of a square, by their middles, to the lists of near and of distant ones. */
+INLINE void list_blocks(const tile *t, unsigned found, int x, int y, const float *entries,
+                        hc_v across, hc_v down)
+{
+    const unsigned near = near_lanes(t, across, down);
+    list_children(&t->scratch->near, found & near, x, y, entries);
+    list_children(&t->scratch->lists[0], found & ~near, x, y, entries);
 }
 
 /* Search the waiting nodes of one level, from number `done` on, while the list below has room:
@@ -134,17 +148,45 @@ INLINE int search_level(kind k, const tile *t, int level, int done)
         const float   *entries = hc_tree_node(&nodes, x, y);
         const hc_v     across  = hc_v_add(columns, hc_v_set((float)(4 * x * side - t->x)));
         const hc_v     down    = hc_v_add(rows, hc_v_set((float)(4 * y * side - t->y)));
-        const unsigned found =
-            promising(k, t, &t->hull, HC_TILE_SIDE, across, down, hc_v_load(entries), side);
+        const unsigned found = promising(k, t, &t->hull, MIDDLE + 0.5F * (float)(side - 1), across,
+                                         down, hc_v_load(entries));
         if (level == 1) {
-            const unsigned near = near_lanes(t, across, down);
-            list_children(&t->scratch->near, found & near, x, y, entries);
-            list_children(below, found & ~near, x, y, entries);
+            list_blocks(t, found, x, y, entries, across, down);
         } else {
             list_children(below, found, x, y, entries);
         }
     }
     return done;
+}
+
+/* The waiting squares, from number `done` on, by chords in the direction of each, which let far
+ * fewer blocks pass than the envelope does. */
+INLINE int search_squares(kind k, const tile *t, int done)
+{
+    const hc_tree_level *squares = &t->pass->tree->levels[1];
+    const hc_node_list  *list    = &t->scratch->lists[1];
+    const hc_node_list  *below   = &t->scratch->lists[0];
+    const hc_v           four    = hc_v_set(4.0F);
+    const hc_v           shift   = hc_v_set(1.5F - MIDDLE); /* of middles */
+    const hc_v           columns = hc_v_about_muladd(hc_v_load(COLUMN), four, shift);
+    const hc_v           rows    = hc_v_about_muladd(hc_v_load(ROW), four, shift);
+    hc_block_choice      chosen;
+    choose_squares(k, t, list, done, &chosen);
+    for (int i = 0; i < chosen.count; i++) {
+        const int      s       = chosen.blocks[i];
+        const int      x       = list->x[s];
+        const int      y       = list->y[s];
+        const float   *entries = hc_tree_node(squares, x, y);
+        const hc_v     across  = hc_v_add(columns, hc_v_set((float)(16 * x - t->x)));
+        const hc_v     down    = hc_v_add(rows, hc_v_set((float)(16 * y - t->y)));
+        const unsigned found   = above_plane(&chosen, s, hc_v_load(entries))
+                               & reached_lanes(k, t, across, down, MIDDLE + 1.5F);
+        if (below->count > HC_LIST) {
+            return s;
+        }
+        list_blocks(t, found, x, y, entries, across, down);
+    }
+    return list->count;
 }
 
 /* Level by level while the lists have room, so that loops are long and their branches predictable;
@@ -169,11 +211,12 @@ INLINE void search_tree(kind k, tile *t)
         if (done[level] == 0 && list->count >= GUESSING_NODES) {
             guess_from_nodes(k, t, level, list);
         }
-        if (t->stale && done[level] < list->count) {
+        const bool many = level == 1 && list->count - done[1] >= MANY_SQUARES;
+        if (t->stale && !many && done[level] < list->count) {
             t->hull  = draw_envelope(t, 0, HC_TILE_PARTS);
             t->stale = false;
         }
-        done[level] = search_level(k, t, level, done[level]);
+        done[level] = many ? search_squares(k, t, done[1]) : search_level(k, t, level, done[level]);
         if (below->count > 0 || (level == 1 && t->scratch->near.count > 0)) {
             level--;
         } else {
