@@ -81,8 +81,8 @@ typedef struct hc_around {
     bool known;
 } hc_around;
 
-/* Distant samples that limited cones a moment ago: first guesses for the next tile, which its result
- * does not depend on. */
+/* Distant samples that limited cones a moment ago: first guesses for the next tile, which its
+ * result does not depend on. */
 typedef struct hc_recent {
     float    x[HC_RECENT], y[HC_RECENT], height[HC_RECENT];
     unsigned next;
