@@ -11,7 +11,7 @@ typedef struct hc_bench_trace_row {
     int         side;
     const char *rays;   /* the set                                                            */
     const char *caster; /* "fast", "embree-triangles", ...                                    */
-    const char *mode;   /* "single": call by call; "batch", "packets", "streams"...           */
+    const char *mode;   /* "single": call by call; "batch", "packets", ...; "": it has one     */
     int         threads;
     size_t      count; /* rays of one run                                            */
     int         runs;

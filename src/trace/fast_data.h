@@ -96,6 +96,12 @@ static inline int hc_fast_block_count(const hc_fast_axis *axis, int level)
     return (axis->cells + side - 1) / side;
 }
 
+/* One period, closed sides, patches: rays have nothing to see to on their way. */
+static inline bool hc_fast_plain(const hc_fast *fast)
+{
+    return !fast->steps && !fast->open_sides && !fast->x.wrapped && !fast->y.wrapped;
+}
+
 /* Where the height of a corner stands; where a block does, from the start of its level. */
 static inline size_t hc_fast_corner(const hc_fast *fast, int x, int y)
 {

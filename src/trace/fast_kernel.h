@@ -495,6 +495,6 @@ void HC_FAST_KERNEL(const hc_fast *fast, hc_fast_answer answer, const hc_ray *ra
     j.answer = answer;
     j.rays   = rays;
     j.count  = (int32_t)count;
-    j.plain  = !fast->steps && !fast->open_sides && !fast->x.wrapped && !fast->y.wrapped;
+    j.plain  = hc_fast_plain(fast);
     go_through(&j);
 }

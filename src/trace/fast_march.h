@@ -91,6 +91,12 @@ static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
     return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
 }
 
+/* The slope of a ray's quadrant, of the four of its block. */
+static inline hc_i code_of(hc_i codes, const int32_t *quadrant)
+{
+    return hc_i_and(hc_i_right(codes, hc_i_load(quadrant)), hc_i_set(255));
+}
+
 /* Where lanes stand, and what is known of their blocks. */
 typedef struct standing {
     place at;
@@ -225,11 +231,11 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, const st
     const hc_i         level = on->level;
     const hc_i         shift = on->shift;
     const hc_v         out   = to_leave(fast, p, at, on->block_x, on->block_y, shift);
-    const hc_i code  = hc_i_and(hc_i_right(on->codes, hc_i_load(p->ray.quadrant)), hc_i_set(255));
-    const hc_v top   = hc_v_of_bits(on->top);
-    const hc_v dz    = hc_v_load(p->ray.dz);
-    const hc_v leave = hc_v_about_muladd(out, dz, at->z);
-    const hc_v down  = hc_v_sub(hc_v_set(0.0F), dz);
+    const hc_i         code  = code_of(on->codes, p->ray.quadrant);
+    const hc_v         top   = hc_v_of_bits(on->top);
+    const hc_v         dz    = hc_v_load(p->ray.dz);
+    const hc_v         leave = hc_v_about_muladd(out, dz, at->z);
+    const hc_v         down  = hc_v_sub(hc_v_set(0.0F), dz);
 
     const bool     steps  = kind == GROUND_STEPS;
     const unsigned unsure = steps ? find_unsure(fast, p, on, out) : 0;

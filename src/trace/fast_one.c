@@ -21,7 +21,7 @@ static inline bool step_single(const hc_fast *fast, pack *p, ground kind)
     const float        leave = at->z - out * down;
     p->ray.steps[0]++;
     if (hc_v_min(at->z, leave) > top) {
-        const int32_t code   = on.codes >> p->ray.quadrant[0] & 255;
+        const int32_t code   = code_of(on.codes, p->ray.quadrant);
         const float   aside  = kind == GROUND_SPARSE ? come_aside(p, &on, out) : 0.0F;
         const float   beyond = go_beyond(fast, code, on.shift, leave - top, down, aside, kind);
         const float   step   = out + beyond;
@@ -120,8 +120,7 @@ static bool cast_single(const hc_fast *fast, const hc_ray *ray, bool any, hc_hit
 
 void hc_fast_march_one(const hc_fast *fast, hc_fast_answer answer, const hc_ray *rays, size_t count)
 {
-    const bool wrapped = fast->x.wrapped || fast->y.wrapped;
-    if (fast->steps || fast->open_sides || wrapped) {
+    if (!hc_fast_plain(fast)) {
         march_lane(fast, answer, rays, count);
         return;
     }

@@ -41,7 +41,7 @@ typedef struct job {
     hc_fast_answer answer;
     const hc_ray  *rays;
     int32_t        count, taken;
-    bool           plain; /* one period, closed sides, patches: nothing to see to on the way */
+    bool           plain; /* hc_fast_plain */
     runners        queue; /* rays ready for lanes */
     double         queue_from[2 * HC_LANES], queue_next[2 * HC_LANES];
     int            queued, next;
