@@ -30,6 +30,19 @@ static size_t lay_out(hc_block_tree *tree)
     return floats;
 }
 
+/* False if places take more than 32 bits. */
+static bool number_places(hc_block_tree *tree)
+{
+    tree->row_shift = 0;
+    while (1 << tree->row_shift < tree->levels[0].columns) {
+        tree->row_shift++;
+    }
+    for (int i = 0; i < ENTRIES; i++) {
+        tree->children[i] = i % SIDE + (i / SIDE << tree->row_shift);
+    }
+    return (uint64_t)tree->levels[0].rows << tree->row_shift <= (uint64_t)UINT32_MAX + 1;
+}
+
 static void place_levels(hc_block_tree *tree)
 {
     float *next = tree->store;
@@ -197,7 +210,9 @@ hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, in
 {
     *tree               = (hc_block_tree){ .width = width, .height = height };
     const size_t floats = lay_out(tree);
-    tree->store         = hc_take_memory(floats * sizeof(float)); /* a node is one line */
+    if (number_places(tree)) {
+        tree->store = hc_take_memory(floats * sizeof(float)); /* a node is one line */
+    }
     if (tree->store == NULL) {
         return hc_fail(log, HC_ERROR_MEMORY,
                        "no memory for the search tree of %d x %d samples (%zu bytes)", width,

@@ -25,6 +25,8 @@ typedef struct hc_block_tree {
     hc_tree_level levels[HC_TREE_LEVELS_MAX];
     int           count;
     int           width, height;
+    int           row_shift;    /* the place of node (x, y) of any level is x + (y << row_shift) */
+    int32_t       children[16]; /* places of a node's children, less 4 * its own                 */
     float base, range; /* heights lie in base .. base + range; 0 and 1 unless all lie close */
     void *store;
 } hc_block_tree;
@@ -35,7 +37,19 @@ static inline float *hc_tree_node(const hc_tree_level *level, int x, int y)
     return level->entries + ((size_t)y * (size_t)level->columns + (size_t)x) * 16;
 }
 
-/* Build the tree over `heights`. Free with hc_tree_free. HC_ERROR_MEMORY, else HC_OK. */
+/* Column and row of the node at a place. */
+static inline int hc_place_x(const hc_block_tree *tree, int32_t place)
+{
+    return (int)((uint32_t)place & ((1U << tree->row_shift) - 1));
+}
+
+static inline int hc_place_y(const hc_block_tree *tree, int32_t place)
+{
+    return (int)((uint32_t)place >> tree->row_shift);
+}
+
+/* Build the tree over `heights`. Free with hc_tree_free. HC_ERROR_MEMORY, for more than about 2^35
+ * samples too, whose places take more than 32 bits; else HC_OK. */
 hc_result hc_tree_build(hc_block_tree *tree, const float *heights, int width, int height,
                         int threads, hc_log *log);
 void      hc_tree_free(hc_block_tree *tree);

@@ -74,25 +74,27 @@ static __attribute__((noinline)) chords draw_chords(const lines *l, const bearin
     const hc_v above   = hc_v_set(most);
     hc_v       lows[2] = { above, above };
     hc_v       ends[2] = { above, above };
-    for (int p = 0; p < HC_TILE_PARTS * HC_LANES; p++) {
-        const hc_v slope = hc_v_set(l->slope[p]);
-        hc_v       v     = hc_v_about_muladd(b->distance, slope, hc_v_set(l->height[p]));
-        v                = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
-        v                = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
-        lows[p % 2]      = hc_v_min(v, lows[p % 2]);
-        ends[p % 2]      = hc_v_min(hc_v_about_muladd(length, slope, v), ends[p % 2]);
+    for (int first = 0; first < HC_TILE_PARTS * HC_LANES; first += 4) {
+        for (int i = 0; i < 4; i++) { /* of constant length, or minima would stay in memory */
+            const int  p     = first + i;
+            const hc_v slope = hc_v_set(l->slope[p]);
+            hc_v       v     = hc_v_about_muladd(b->distance, slope, hc_v_set(l->height[p]));
+            v                = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
+            v                = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
+            lows[i % 2]      = hc_v_min(v, lows[i % 2]);
+            ends[i % 2]      = hc_v_min(hc_v_about_muladd(length, slope, v), ends[i % 2]);
+        }
     }
     const hc_v low = hc_v_min(lows[0], lows[1]);
     return (chords){ low, hc_v_sub(hc_v_min(ends[0], ends[1]), low) };
 }
 
-/* Gaps from a part's middle to sixteen listed blocks, in columns or rows; negative to the left and
- * above. They are 0 or at least 1/2. */
-INLINE hc_v block_gaps(const int32_t *blocks, float middle)
+/* Gaps from a part's middle to sixteen blocks, in columns or rows, by the blocks' columns or rows;
+ * negative to the left and above. They are 0 or at least 1/2. */
+INLINE hc_v block_gaps(hc_v index, float middle)
 {
     const hc_v zero  = hc_v_set(0.0F);
     const hc_v four  = hc_v_set(4.0F);
-    const hc_v index = hc_v_from_ints(blocks);
     const hc_v first = hc_v_about_muladd(index, four, hc_v_set(-middle));
     const hc_v last  = hc_v_about_muladd(index, four, hc_v_set(3.0F - middle));
     return hc_v_add(hc_v_max(first, zero), hc_v_min(last, zero));
@@ -165,8 +167,8 @@ INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *l
     draw_lines(t, part, 1, &l);
     chosen->count = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
-        const hc_v     gap_u = block_gaps(list->x + first, u);
-        const hc_v     gap_v = block_gaps(list->y + first, v);
+        const hc_v     gap_u = block_gaps(columns_of(t, list->place + first), u);
+        const hc_v     gap_v = block_gaps(rows_of(t, list->place + first), v);
         const bearings b     = take_bearings(k, t, gap_u, gap_v);
         const hc_v     low   = lowest_lines(&l, &b);
         const unsigned found = hc_v_greater(hc_v_load(list->top + first), low)
@@ -224,8 +226,8 @@ INLINE void choose_squares(kind k, const tile *t, const hc_node_list *list, int 
     const unsigned rising = l.least_slope > 0.0F ? 0xFFFFU : 0;
     chosen->count         = 0;
     for (int first = done; first < list->count; first += HC_LANES) {
-        const hc_v     across = hc_v_about_muladd(hc_v_from_ints(list->x + first), side, u);
-        const hc_v     down   = hc_v_about_muladd(hc_v_from_ints(list->y + first), side, v);
+        const hc_v     across = hc_v_about_muladd(columns_of(t, list->place + first), side, u);
+        const hc_v     down   = hc_v_about_muladd(rows_of(t, list->place + first), side, v);
         const headings h      = take_headings(k, t, across, down);
         const chords   c      = draw_chords(&l, &h.to, hc_v_mul(h.step, hc_v_set(3.0F)), most);
         const hc_v     rise   = hc_v_mul(hc_v_about_over(c.rise, h.step), hc_v_set(4.0F / 3.0F));
@@ -251,14 +253,13 @@ INLINE const hc_node_list *sift_distant(kind k, const tile *t, int part)
     const hc_v     y    = hc_v_set((float)(t->y + 4 * (part >> 1)));
     int            n    = 0;
     for (int i = 0; i < list->count; i += HC_LANES) {
-        const hc_v across = hc_v_sub(hc_v_mul(hc_v_from_ints(list->x + i), four), x);
-        const hc_v down   = hc_v_sub(hc_v_mul(hc_v_from_ints(list->y + i), four), y);
+        const hc_v across = hc_v_sub(hc_v_mul(columns_of(t, list->place + i), four), x);
+        const hc_v down   = hc_v_sub(hc_v_mul(rows_of(t, list->place + i), four), y);
         const hc_v tops   = hc_v_load(list->top + i);
         unsigned   found  = promising(k, t, &hull, 3.0F, across, down, tops);
         found &= lanes_left(list->count - i);
-        (void)hc_pack_lanes(sifted->x + n, found, list->x + i, 0);
         (void)hc_pack_v(sifted->top + n, found, tops);
-        n += hc_pack_lanes(sifted->y + n, found, list->y + i, 0);
+        n += hc_pack_lanes(sifted->place + n, found, list->place + i, 0);
     }
     sifted->count = n;
     return sifted;
@@ -266,7 +267,9 @@ INLINE const hc_node_list *sift_distant(kind k, const tile *t, int part)
 
 INLINE const float *listed_samples(const tile *t, const hc_node_list *list, int b)
 {
-    return hc_tree_node(&t->pass->tree->levels[0], list->x[b], list->y[b]);
+    const hc_block_tree *tree  = t->pass->tree;
+    const int32_t        place = list->place[b];
+    return hc_tree_node(&tree->levels[0], hc_place_x(tree, place), hc_place_y(tree, place));
 }
 
 /* Which entries of listed square b rise above its plane. */
@@ -305,8 +308,9 @@ INLINE void list_near_samples(const tile *t, int part, const hc_node_list *list,
         const int      b       = chosen->blocks[i];
         const float   *samples = listed_samples(t, list, b);
         const unsigned found   = samples_above(t, chosen, b, samples);
-        const float   *weights =
-            hc_near_weights(t->pass->near, 4 * list->x[b] - x, 4 * list->y[b] - y);
+        const int      column  = 4 * hc_place_x(t->pass->tree, list->place[b]) - x;
+        const int      row     = 4 * hc_place_y(t->pass->tree, list->place[b]) - y;
+        const float   *weights = hc_near_weights(t->pass->near, column, row);
         (void)hc_pack_v(wanted->heights + n, found, hc_v_load(samples));
         n += hc_pack_lanes(wanted->weights + n, found, NEAR_STEP,
                            (int32_t)(weights - t->pass->near->sample[0][0]));
@@ -342,10 +346,12 @@ INLINE void take_distant_block(kind k, tile *t, int part, const hc_node_list *li
                                unsigned samples)
 {
     const float *heights = listed_samples(t, list, b);
+    const int    column  = 4 * hc_place_x(t->pass->tree, list->place[b]);
+    const int    row     = 4 * hc_place_y(t->pass->tree, list->place[b]);
     for (; samples != 0; samples &= samples - 1) {
         const int i = __builtin_ctz(samples);
-        const int x = 4 * list->x[b] + COLUMN_INDEX[i];
-        const int y = 4 * list->y[b] + ROW_INDEX[i];
+        const int x = column + COLUMN_INDEX[i];
+        const int y = row + ROW_INDEX[i];
         if (take_distant(k, t, part, x, y, heights[i]) && t->home_image) {
             remember(t->scratch, x, y, heights[i]);
         }

@@ -36,14 +36,15 @@ INLINE void guess(kind k, tile *t)
 
 /* From as many waiting nodes on, guesses from them pay, and chords in the directions of squares
  * (nodes of level 1). */
-enum { GUESSING_NODES = 24, MANY_SQUARES = 12 };
+enum { GUESSING_NODES = 24, MANY_SQUARES = 9 };
 
-INLINE void list_children(hc_node_list *list, unsigned found, int x, int y, const float *entries)
+INLINE void list_children(const tile *t, hc_node_list *list, unsigned found, int32_t place,
+                          const float *entries)
 {
-    const int at = list->count;
-    (void)hc_pack_lanes(list->x + at, found, COLUMN_INDEX, 4 * x);
+    const int32_t first = (int32_t)(4 * (uint32_t)place);
+    const int     at    = list->count;
     (void)hc_pack_v(list->top + at, found, hc_v_load(entries));
-    list->count += hc_pack_lanes(list->y + at, found, ROW_INDEX, 4 * y);
+    list->count += hc_pack_lanes(list->place + at, found, t->pass->tree->children, first);
 }
 
 /* Blocks that the tables of all parts cover, by the offsets of their middles. Images of a wrapped
@@ -101,11 +102,11 @@ INLINE void guess_from_nodes(kind k, tile *t, int level, const hc_node_list *lis
     int         count = 0;
     node_places from;
     for (int first = 0; first < list->count; first += HC_LANES) {
-        const hc_v     across = hc_v_about_muladd(hc_v_from_ints(list->x + first), hc_v_set(side),
-                                                  hc_v_set(half - (float)t->x - MIDDLE));
-        const hc_v     down   = hc_v_about_muladd(hc_v_from_ints(list->y + first), hc_v_set(side),
-                                                  hc_v_set(half - (float)t->y - MIDDLE));
-        const hc_v     tops   = hc_v_load(list->top + first);
+        const hc_v across   = hc_v_about_muladd(columns_of(t, list->place + first), hc_v_set(side),
+                                                hc_v_set(half - (float)t->x - MIDDLE));
+        const hc_v down     = hc_v_about_muladd(rows_of(t, list->place + first), hc_v_set(side),
+                                                hc_v_set(half - (float)t->y - MIDDLE));
+        const hc_v tops     = hc_v_load(list->top + first);
         const unsigned sure = sure_lanes(k, t, across, down, half) & lanes_left(list->count - first)
                               & promising(k, t, &t->hull, MIDDLE - half, across, down, tops);
         (void)hc_pack_v(from.across + count, sure, across);
@@ -122,12 +123,12 @@ INLINE void guess_from_nodes(kind k, tile *t, int level, const hc_node_list *lis
 }
 
 /* Blocks of a square, by their middles, to the lists of near and of distant ones. */
-INLINE void list_blocks(const tile *t, unsigned found, int x, int y, const float *entries,
+INLINE void list_blocks(const tile *t, unsigned found, int32_t place, const float *entries,
                         hc_v across, hc_v down)
 {
     const unsigned near = near_lanes(t, across, down);
-    list_children(&t->scratch->near, found & near, x, y, entries);
-    list_children(&t->scratch->lists[0], found & ~near, x, y, entries);
+    list_children(t, &t->scratch->near, found & near, place, entries);
+    list_children(t, &t->scratch->lists[0], found & ~near, place, entries);
 }
 
 /* Search the waiting nodes of one level, from number `done` on, while the list below has room:
@@ -143,17 +144,18 @@ INLINE int search_level(kind k, const tile *t, int level, int done)
     const hc_v          columns = hc_v_about_muladd(hc_v_load(COLUMN), size, shift);
     const hc_v          rows    = hc_v_about_muladd(hc_v_load(ROW), size, shift);
     for (; done < list->count && below->count <= HC_LIST; done++) {
-        const int      x       = list->x[done];
-        const int      y       = list->y[done];
+        const int32_t  place   = list->place[done];
+        const int      x       = hc_place_x(t->pass->tree, place);
+        const int      y       = hc_place_y(t->pass->tree, place);
         const float   *entries = hc_tree_node(&nodes, x, y);
         const hc_v     across  = hc_v_add(columns, hc_v_set((float)(4 * x * side - t->x)));
         const hc_v     down    = hc_v_add(rows, hc_v_set((float)(4 * y * side - t->y)));
         const unsigned found = promising(k, t, &t->hull, MIDDLE + 0.5F * (float)(side - 1), across,
                                          down, hc_v_load(entries));
         if (level == 1) {
-            list_blocks(t, found, x, y, entries, across, down);
+            list_blocks(t, found, place, entries, across, down);
         } else {
-            list_children(below, found, x, y, entries);
+            list_children(t, below, found, place, entries);
         }
     }
     return done;
@@ -174,8 +176,9 @@ INLINE int search_squares(kind k, const tile *t, int done)
     choose_squares(k, t, list, done, &chosen);
     for (int i = 0; i < chosen.count; i++) {
         const int      s       = chosen.blocks[i];
-        const int      x       = list->x[s];
-        const int      y       = list->y[s];
+        const int32_t  place   = list->place[s];
+        const int      x       = hc_place_x(t->pass->tree, place);
+        const int      y       = hc_place_y(t->pass->tree, place);
         const float   *entries = hc_tree_node(squares, x, y);
         const hc_v     across  = hc_v_add(columns, hc_v_set((float)(16 * x - t->x)));
         const hc_v     down    = hc_v_add(rows, hc_v_set((float)(16 * y - t->y)));
@@ -184,7 +187,7 @@ INLINE int search_squares(kind k, const tile *t, int done)
         if (below->count > HC_LIST) {
             return s;
         }
-        list_blocks(t, found, x, y, entries, across, down);
+        list_blocks(t, found, place, entries, across, down);
     }
     return list->count;
 }
@@ -198,8 +201,8 @@ INLINE void search_tree(kind k, tile *t)
     int           done[HC_TREE_LEVELS_MAX] = { 0 };
     int           level                    = root;
     lists[root].count                      = 1;
-    lists[root].x[0] = lists[root].y[0] = 0;
-    lists[root].top[0]                  = t->pass->tree->range;
+    lists[root].place[0]                   = 0;
+    lists[root].top[0]                     = t->pass->tree->range;
     while (level <= root) {
         if (level == 0) {
             search_blocks(k, t);
@@ -275,13 +278,13 @@ INLINE void search_images(kind k, tile *t)
 INLINE void search_tile(kind k, float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
                         hc_exact_scratch *scratch)
 {
-    tile t = { .pass       = pass,
-               .scratch    = scratch,
-               .aspect     = pass->step_v / pass->step_u,
-               .x          = tile_x * HC_TILE_SIDE,
-               .y          = tile_y * HC_TILE_SIDE,
-               .home_image = true,
-               .stale      = true };
+    tile t; /* an initializer would clear its vectors first */
+    t.pass       = pass;
+    t.scratch    = scratch;
+    t.aspect     = pass->step_v / pass->step_u;
+    t.x          = tile_x * HC_TILE_SIDE;
+    t.y          = tile_y * HC_TILE_SIDE;
+    t.home_image = true;
     begin_tile(k, &t, tile_x, tile_y);
     guess(k, &t);
     search_tree(k, &t);

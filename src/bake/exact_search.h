@@ -51,7 +51,7 @@ typedef struct hc_exact_pass {
 
 typedef struct hc_node_list {
     int     count;
-    int32_t x[HC_LIST_ROOM], y[HC_LIST_ROOM];
+    int32_t place[HC_LIST_ROOM];
     float   top[HC_LIST_ROOM]; /* highest sample below the node, minus base */
 } hc_node_list;
 

@@ -78,6 +78,18 @@ INLINE void raise_threshold(tile *t, int part)
     t->T[part] = hc_v_max(hc_v_mul(t->S[part], hc_v_set(LOWER)), t->T[part]);
 }
 
+/* Columns and rows of sixteen nodes. */
+INLINE hc_v columns_of(const tile *t, const int32_t *places)
+{
+    const hc_i mask = hc_i_set((int32_t)((1U << t->pass->tree->row_shift) - 1));
+    return hc_v_from_i(hc_i_and(hc_i_load(places), mask));
+}
+
+INLINE hc_v rows_of(const tile *t, const int32_t *places)
+{
+    return hc_v_from_i(hc_i_right(hc_i_load(places), hc_i_set(t->pass->tree->row_shift)));
+}
+
 INLINE hc_v part_columns(const tile *t, int part)
 {
     return hc_v_add(hc_v_load(COLUMN), hc_v_set((float)(t->x + 4 * (part & 1))));

@@ -41,13 +41,6 @@ static inline hc_v hc_v_load(const float *p)
     return (hc_v){ _mm256_loadu_ps(p), _mm256_loadu_ps(p + 8) };
 }
 
-static inline hc_v hc_v_from_ints(const int32_t *p)
-{
-    const __m256i *from = (const __m256i *)(const void *)p;
-    return (hc_v){ _mm256_cvtepi32_ps(_mm256_loadu_si256(from)),
-                   _mm256_cvtepi32_ps(_mm256_loadu_si256(from + 1)) };
-}
-
 static inline void hc_v_store(float *p, hc_v x)
 {
     _mm256_storeu_ps(p, x.a);

@@ -35,11 +35,6 @@ static inline hc_v hc_v_load(const float *p)
     return _mm512_loadu_ps(p);
 }
 
-static inline hc_v hc_v_from_ints(const int32_t *p)
-{
-    return _mm512_cvtepi32_ps(_mm512_loadu_si512(p));
-}
-
 static inline void hc_v_store(float *p, hc_v a)
 {
     _mm512_storeu_ps(p, a);

@@ -54,15 +54,6 @@ static inline void hc_v_store(float *p, hc_v a)
     memcpy(p, &a, sizeof a);
 }
 
-static inline hc_v hc_v_from_ints(const int32_t *p)
-{
-    float a[HC_LANES];
-    for (int i = 0; i < HC_LANES; i++) {
-        a[i] = (float)p[i];
-    }
-    return hc_v_load(a);
-}
-
 static inline unsigned hc_v_greater(hc_v a, hc_v b)
 {
     unsigned lanes = 0;
@@ -176,7 +167,11 @@ static inline hc_i hc_i_from_v(hc_v a)
 
 static inline hc_v hc_v_from_i(hc_i a)
 {
-    return hc_v_from_ints(a.lane);
+    float lanes[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        lanes[i] = (float)a.lane[i];
+    }
+    return hc_v_load(lanes);
 }
 
 static inline hc_v hc_v_of_bits(hc_i a)
