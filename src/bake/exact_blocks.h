@@ -322,15 +322,10 @@ INLINE void list_near_samples(const tile *t, int part, const hc_node_list *list,
     wanted->count = n;
 }
 
-INLINE void search_near(kind k, tile *t, int part)
+INLINE void take_near_samples(tile *t, int part, const hc_near_samples *wanted)
 {
-    hc_near_samples    *wanted = &t->scratch->wanted;
-    const float        *table  = t->pass->near->sample[0][0];
-    hc_v                S[4];
-    hc_block_choice     chosen;
-    const hc_node_list *list = &t->scratch->near;
-    choose_blocks(k, t, part, list, &chosen);
-    list_near_samples(t, part, list, &chosen, wanted);
+    const float *table = t->pass->near->sample[0][0];
+    hc_v         S[4];
     begin_maxima(t, part, S);
     for (int first = 0; first < wanted->count; first += 4) {
         for (int i = 0; i < 4; i++) {
@@ -339,6 +334,24 @@ INLINE void search_near(kind k, tile *t, int part)
         }
     }
     end_maxima(t, part, S);
+}
+
+/* Each stage for all parts before the next one begins, whose loops end where this one says: by then
+ * that is known, and the processor has not run on for nothing. */
+INLINE void search_near(kind k, tile *t)
+{
+    const hc_node_list *list   = &t->scratch->near;
+    hc_near_samples    *wanted = t->scratch->wanted;
+    hc_block_choice     chosen[HC_TILE_PARTS];
+    for (int part = 0; part < HC_TILE_PARTS; part++) {
+        choose_blocks(k, t, part, list, &chosen[part]);
+    }
+    for (int part = 0; part < HC_TILE_PARTS; part++) {
+        list_near_samples(t, part, list, &chosen[part], &wanted[part]);
+    }
+    for (int part = 0; part < HC_TILE_PARTS; part++) {
+        take_near_samples(t, part, &wanted[part]);
+    }
 }
 
 /* The distant samples of one block that may limit the part. */
@@ -383,8 +396,8 @@ INLINE void search_distant(kind k, tile *t, int part)
 INLINE void search_blocks(kind k, tile *t)
 {
     const unsigned known = t->scratch->recent.next;
+    search_near(k, t);
     for (int part = 0; part < HC_TILE_PARTS; part++) {
-        search_near(k, t, part);
         for (unsigned i = known; i != t->scratch->recent.next; i++) {
             (void)guess_from_recent(k, t, part, (int)(i % HC_RECENT));
         }

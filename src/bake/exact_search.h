@@ -94,7 +94,7 @@ typedef struct hc_exact_scratch {
     hc_node_list    lists[HC_TREE_LEVELS_MAX]; /* [0]: blocks that are not near */
     hc_node_list    near;
     hc_node_list    sifted; /* lists[0], as far as a part needs it */
-    hc_near_samples wanted;
+    hc_near_samples wanted[HC_TILE_PARTS];
     hc_around       around;
     hc_recent       recent;
 } hc_exact_scratch;
