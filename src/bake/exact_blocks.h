@@ -132,7 +132,7 @@ INLINE unsigned lanes_left(int left)
 INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int left)
 {
     const hc_v known = hc_v_set(t->home_image ? 3.0F : -1.0F); /* the part's own and those around */
-    unsigned   useful = left >= HC_LANES ? 0xFFFFU : (1U << left) - 1;
+    unsigned   useful = lanes_left(left);
     useful &= ~hc_v_greater(known, hc_v_max(hc_v_abs(gap_u), hc_v_abs(gap_v)));
     if (k.quadrant) {
         const hc_v beyond = hc_v_set(-1.5F); /* the part's last samples */

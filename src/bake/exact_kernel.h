@@ -122,40 +122,64 @@ INLINE void guess_from_nodes(kind k, tile *t, int level, const hc_node_list *lis
     t->stale = true;
 }
 
-/* Blocks of a square, by their middles, to the lists of near and of distant ones. */
-INLINE void list_blocks(const tile *t, unsigned found, int32_t place, const float *entries,
-                        hc_v across, hc_v down)
+/* Nodes of one level, and the middles of node (0, 0)'s children as seen from the tile's. */
+typedef struct raster {
+    hc_tree_level nodes;
+    int           side; /* of a child [samples] */
+    hc_v          columns, rows;
+} raster;
+
+/* The sixteen children of a node: their entries, and their middles as seen from the tile's. */
+typedef struct children {
+    const float *entries;
+    hc_v         across, down;
+} children;
+
+INLINE raster raster_of(const tile *t, int level)
 {
-    const unsigned near = near_lanes(t, across, down);
-    list_children(t, &t->scratch->near, found & near, place, entries);
-    list_children(t, &t->scratch->lists[0], found & ~near, place, entries);
+    const int  side  = 1 << (2 * level);
+    const hc_v size  = hc_v_set((float)side);
+    const hc_v shift = hc_v_set(0.5F * (float)(side - HC_TILE_SIDE)); /* of middles */
+    return (raster){ .nodes   = t->pass->tree->levels[level],
+                     .side    = side,
+                     .columns = hc_v_about_muladd(hc_v_load(COLUMN), size, shift),
+                     .rows    = hc_v_about_muladd(hc_v_load(ROW), size, shift) };
+}
+
+INLINE children children_at(const tile *t, raster r, int32_t place)
+{
+    const int x = hc_place_x(t->pass->tree, place);
+    const int y = hc_place_y(t->pass->tree, place);
+    return (children){ .entries = hc_tree_node(&r.nodes, x, y),
+                       .across  = hc_v_add(r.columns, hc_v_set((float)(4 * x * r.side - t->x))),
+                       .down    = hc_v_add(r.rows, hc_v_set((float)(4 * y * r.side - t->y))) };
+}
+
+/* Blocks of a square to the lists of near and of distant ones. */
+INLINE void list_blocks(const tile *t, unsigned found, int32_t place, children c)
+{
+    const unsigned near = near_lanes(t, c.across, c.down);
+    list_children(t, &t->scratch->near, found & near, place, c.entries);
+    list_children(t, &t->scratch->lists[0], found & ~near, place, c.entries);
 }
 
 /* Search the waiting nodes of one level, from number `done` on, while the list below has room:
  * those of their sixteen children that may hold something join it. Returns how many are done. */
 INLINE int search_level(kind k, const tile *t, int level, int done)
 {
-    const hc_tree_level nodes   = t->pass->tree->levels[level];
-    const hc_node_list *list    = &t->scratch->lists[level];
-    hc_node_list       *below   = &t->scratch->lists[level - 1];
-    const int           side    = 1 << (2 * level);
-    const hc_v          size    = hc_v_set((float)side);
-    const hc_v          shift   = hc_v_set(0.5F * (float)(side - HC_TILE_SIDE)); /* of middles */
-    const hc_v          columns = hc_v_about_muladd(hc_v_load(COLUMN), size, shift);
-    const hc_v          rows    = hc_v_about_muladd(hc_v_load(ROW), size, shift);
+    const hc_node_list *list  = &t->scratch->lists[level];
+    hc_node_list       *below = &t->scratch->lists[level - 1];
+    const raster        r     = raster_of(t, level);
+    const float         reach = MIDDLE + 0.5F * (float)(r.side - 1);
     for (; done < list->count && below->count <= HC_LIST; done++) {
-        const int32_t  place   = list->place[done];
-        const int      x       = hc_place_x(t->pass->tree, place);
-        const int      y       = hc_place_y(t->pass->tree, place);
-        const float   *entries = hc_tree_node(&nodes, x, y);
-        const hc_v     across  = hc_v_add(columns, hc_v_set((float)(4 * x * side - t->x)));
-        const hc_v     down    = hc_v_add(rows, hc_v_set((float)(4 * y * side - t->y)));
-        const unsigned found = promising(k, t, &t->hull, MIDDLE + 0.5F * (float)(side - 1), across,
-                                         down, hc_v_load(entries));
+        const int32_t  place = list->place[done];
+        const children c     = children_at(t, r, place);
+        const unsigned found =
+            promising(k, t, &t->hull, reach, c.across, c.down, hc_v_load(c.entries));
         if (level == 1) {
-            list_blocks(t, found, place, entries, across, down);
+            list_blocks(t, found, place, c);
         } else {
-            list_children(t, below, found, place, entries);
+            list_children(t, below, found, place, c.entries);
         }
     }
     return done;
@@ -165,29 +189,20 @@ INLINE int search_level(kind k, const tile *t, int level, int done)
  * fewer blocks pass than the envelope does. */
 INLINE int search_squares(kind k, const tile *t, int done)
 {
-    const hc_tree_level *squares = &t->pass->tree->levels[1];
-    const hc_node_list  *list    = &t->scratch->lists[1];
-    const hc_node_list  *below   = &t->scratch->lists[0];
-    const hc_v           four    = hc_v_set(4.0F);
-    const hc_v           shift   = hc_v_set(1.5F - MIDDLE); /* of middles */
-    const hc_v           columns = hc_v_about_muladd(hc_v_load(COLUMN), four, shift);
-    const hc_v           rows    = hc_v_about_muladd(hc_v_load(ROW), four, shift);
-    hc_block_choice      chosen;
+    const hc_node_list *list  = &t->scratch->lists[1];
+    const hc_node_list *below = &t->scratch->lists[0];
+    const raster        r     = raster_of(t, 1);
+    hc_block_choice     chosen;
     choose_squares(k, t, list, done, &chosen);
     for (int i = 0; i < chosen.count; i++) {
-        const int      s       = chosen.blocks[i];
-        const int32_t  place   = list->place[s];
-        const int      x       = hc_place_x(t->pass->tree, place);
-        const int      y       = hc_place_y(t->pass->tree, place);
-        const float   *entries = hc_tree_node(squares, x, y);
-        const hc_v     across  = hc_v_add(columns, hc_v_set((float)(16 * x - t->x)));
-        const hc_v     down    = hc_v_add(rows, hc_v_set((float)(16 * y - t->y)));
-        const unsigned found   = above_plane(&chosen, s, hc_v_load(entries))
-                               & reached_lanes(k, t, across, down, MIDDLE + 1.5F);
+        const int      s     = chosen.blocks[i];
+        const children c     = children_at(t, r, list->place[s]);
+        const unsigned found = above_plane(&chosen, s, hc_v_load(c.entries))
+                               & reached_lanes(k, t, c.across, c.down, MIDDLE + 1.5F);
         if (below->count > HC_LIST) {
             return s;
         }
-        list_blocks(t, found, place, entries, across, down);
+        list_blocks(t, found, list->place[s], c);
     }
     return list->count;
 }
