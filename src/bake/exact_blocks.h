@@ -46,17 +46,20 @@ typedef struct bearings {
     hc_v unit_u, unit_v, distance;
 } bearings;
 
-/* The lowest of a part's lines at sixteen places. Not inline: compilers would broadcast all lines
+/* The lowest of `count` lines at sixteen places. Not inline: compilers would broadcast all lines
  * into memory before the loop over the list, which is short. */
-static __attribute__((noinline)) hc_v lowest_lines(const lines *l, const bearings *b)
+static __attribute__((noinline)) hc_v lowest_lines(const lines *l, int count, const bearings *b)
 {
     const hc_v above   = hc_v_set(ABOVE_ALL);
     hc_v       lows[2] = { above, above }; /* short chains: min takes a while */
-    for (int p = 0; p < HC_LANES; p++) {
-        hc_v v      = hc_v_about_muladd(b->distance, hc_v_set(l->slope[p]), hc_v_set(l->height[p]));
-        v           = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
-        v           = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
-        lows[p % 2] = hc_v_min(v, lows[p % 2]);
+    for (int first = 0; first < count; first += 4) {
+        for (int i = 0; i < 4; i++) { /* of constant length, or minima would stay in memory */
+            const int p = first + i;
+            hc_v v = hc_v_about_muladd(b->distance, hc_v_set(l->slope[p]), hc_v_set(l->height[p]));
+            v      = hc_v_about_muladd(b->unit_u, hc_v_set(l->lean_u[p]), v);
+            v      = hc_v_about_muladd(b->unit_v, hc_v_set(l->lean_v[p]), v);
+            lows[i % 2] = hc_v_min(v, lows[i % 2]);
+        }
     }
     return hc_v_min(lows[0], lows[1]);
 }
@@ -75,7 +78,7 @@ static __attribute__((noinline)) chords draw_chords(const lines *l, const bearin
     hc_v       lows[2] = { above, above };
     hc_v       ends[2] = { above, above };
     for (int first = 0; first < HC_TILE_PARTS * HC_LANES; first += 4) {
-        for (int i = 0; i < 4; i++) { /* of constant length, or minima would stay in memory */
+        for (int i = 0; i < 4; i++) { /* as above */
             const int  p     = first + i;
             const hc_v slope = hc_v_set(l->slope[p]);
             hc_v       v     = hc_v_about_muladd(b->distance, slope, hc_v_set(l->height[p]));
@@ -144,37 +147,43 @@ INLINE unsigned useful_lanes(kind k, const tile *t, hc_v gap_u, hc_v gap_v, int 
 
 /* Planes over the 4 x 4 entries of sixteen squares or blocks: `low` at the nearest corner, rising
  * by `rise` from one entry to the next one straight ahead. */
-INLINE void draw_planes(const tile *t, const bearings *b, hc_v low, hc_v rise,
-                        hc_block_choice *chosen, int first)
+INLINE void draw_planes(const tile *t, const bearings *b, hc_v low, hc_v rise, hc_planes *planes,
+                        int first)
 {
     const hc_v zero   = hc_v_set(0.0F);
     const hc_v rise_u = hc_v_mul(rise, b->unit_u);
     const hc_v rise_v = hc_v_mul(rise, hc_v_mul(b->unit_v, hc_v_set(t->aspect)));
     const hc_v back   = hc_v_add(hc_v_min(rise_u, zero), hc_v_min(rise_v, zero));
-    hc_v_store(chosen->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), low));
-    hc_v_store(chosen->rise_u + first, rise_u);
-    hc_v_store(chosen->rise_v + first, rise_v);
+    hc_v_store(planes->start + first, hc_v_about_muladd(back, hc_v_set(-3.0F), low));
+    hc_v_store(planes->rise_u + first, rise_u);
+    hc_v_store(planes->rise_v + first, rise_v);
 }
 
-/* Choose what a part needs of a list. From a block's nearest point on, no line rises less than the
- * least slope does. No branch depends on what is found; nobody could predict it. */
-INLINE void choose_blocks(kind k, const tile *t, int part, const hc_node_list *list,
-                          hc_block_choice *chosen)
+INLINE void take_lanes(hc_choice *chosen, unsigned lanes, int first)
 {
-    const float u = (float)(t->x + 4 * (part & 1)) + 1.5F;
-    const float v = (float)(t->y + 4 * (part >> 1)) + 1.5F;
+    chosen->count += hc_pack_lanes(chosen->number + chosen->count, lanes, LANE_INDEX, first);
+}
+
+/* Choose what parts need of a list. From a block's nearest point on, no line rises less than the
+ * least slope does. No branch depends on what is found; nobody could predict it. */
+INLINE void choose_blocks(kind k, const tile *t, int part, int parts, const hc_node_list *list,
+                          hc_choice *chosen, hc_planes *planes)
+{
+    const float middle = parts == 1 ? 1.5F : MIDDLE;
+    const float u      = (float)(t->x + 4 * (part & 1)) + middle;
+    const float v      = (float)(t->y + 4 * (part >> 1)) + middle;
     lines       l;
-    draw_lines(t, part, 1, &l);
+    draw_lines(t, part, parts, &l);
     chosen->count = 0;
     for (int first = 0; first < list->count; first += HC_LANES) {
         const hc_v     gap_u = block_gaps(columns_of(t, list->place + first), u);
         const hc_v     gap_v = block_gaps(rows_of(t, list->place + first), v);
         const bearings b     = take_bearings(k, t, gap_u, gap_v);
-        const hc_v     low   = lowest_lines(&l, &b);
+        const hc_v     low   = lowest_lines(&l, parts * HC_LANES, &b);
         const unsigned found = hc_v_greater(hc_v_load(list->top + first), low)
                                & useful_lanes(k, t, gap_u, gap_v, list->count - first);
-        draw_planes(t, &b, low, hc_v_set(l.least_slope), chosen, first);
-        chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found, LANE_INDEX, first);
+        draw_planes(t, &b, low, hc_v_set(l.least_slope), planes, first);
+        take_lanes(chosen, found, first);
     }
 }
 
@@ -212,10 +221,17 @@ INLINE headings take_headings(kind k, const tile *t, hc_v across, hc_v down)
     return (headings){ to, hc_v_max(hc_v_mul(both, hc_v_set(4.0F)), hc_v_set(0x1p-60F)) };
 }
 
+/* Squares that a tile needs: those that may hold near blocks, and those that hold distant ones
+ * alone. */
+typedef struct square_choice {
+    hc_choice near, far;
+    hc_planes planes;
+} square_choice;
+
 /* Choose what a tile needs of the waiting squares, from number `done` on. Level lines are exact
  * only if nothing is added to them. */
 INLINE void choose_squares(kind k, const tile *t, const hc_node_list *list, int done,
-                           hc_block_choice *chosen)
+                           square_choice *chosen)
 {
     const hc_v  side = hc_v_set(SQUARE_SIDE);
     const hc_v  u    = hc_v_set(0.5F * (SQUARE_SIDE - 1) - MIDDLE - (float)t->x);
@@ -224,7 +240,8 @@ INLINE void choose_squares(kind k, const tile *t, const hc_node_list *list, int 
     lines       l;
     draw_lines(t, 0, HC_TILE_PARTS, &l);
     const unsigned rising = l.least_slope > 0.0F ? 0xFFFFU : 0;
-    chosen->count         = 0;
+    const hc_v     reach  = hc_v_set(HC_NEAR_REACH + 0.5F * (SQUARE_SIDE - 4));
+    chosen->near.count = chosen->far.count = 0;
     for (int first = done; first < list->count; first += HC_LANES) {
         const hc_v     across = hc_v_about_muladd(columns_of(t, list->place + first), side, u);
         const hc_v     down   = hc_v_about_muladd(rows_of(t, list->place + first), side, v);
@@ -233,8 +250,10 @@ INLINE void choose_squares(kind k, const tile *t, const hc_node_list *list, int 
         const hc_v     rise   = hc_v_mul(hc_v_about_over(c.rise, h.step), hc_v_set(4.0F / 3.0F));
         const unsigned found =
             hc_v_greater(hc_v_load(list->top + first), c.low) & lanes_left(list->count - first);
-        draw_planes(t, &h.to, c.low, hc_v_keep(rising, rise), chosen, first);
-        chosen->count += hc_pack_lanes(chosen->blocks + chosen->count, found, LANE_INDEX, first);
+        const unsigned near = hc_v_greater(reach, hc_v_max(hc_v_abs(across), hc_v_abs(down)));
+        draw_planes(t, &h.to, c.low, hc_v_keep(rising, rise), &chosen->planes, first);
+        take_lanes(&chosen->near, found & near, first);
+        take_lanes(&chosen->far, found & ~near, first);
     }
 }
 
@@ -272,19 +291,18 @@ INLINE const float *listed_samples(const tile *t, const hc_node_list *list, int 
     return hc_tree_node(&tree->levels[0], hc_place_x(tree, place), hc_place_y(tree, place));
 }
 
-/* Which entries of listed square b rise above its plane. */
-INLINE unsigned above_plane(const hc_block_choice *chosen, int b, hc_v tops)
+/* Which entries of listed node b rise above its plane. */
+INLINE unsigned above_plane(const hc_planes *planes, int b, hc_v tops)
 {
-    const hc_v row   = hc_v_about_muladd(hc_v_load(COLUMN), hc_v_set(chosen->rise_u[b]),
-                                         hc_v_set(chosen->start[b]));
-    const hc_v plane = hc_v_about_muladd(hc_v_load(ROW), hc_v_set(chosen->rise_v[b]), row);
+    const hc_v row   = hc_v_about_muladd(hc_v_load(COLUMN), hc_v_set(planes->rise_u[b]),
+                                         hc_v_set(planes->start[b]));
+    const hc_v plane = hc_v_about_muladd(hc_v_load(ROW), hc_v_set(planes->rise_v[b]), row);
     return hc_v_greater(tops, plane);
 }
 
-INLINE unsigned samples_above(const tile *t, const hc_block_choice *chosen, int b,
-                              const float *samples)
+INLINE unsigned samples_above(const tile *t, const hc_planes *planes, int b, const float *samples)
 {
-    return above_plane(chosen, b, hc_v_sub(hc_v_load(samples), hc_v_set(t->pass->tree->base)));
+    return above_plane(planes, b, hc_v_sub(hc_v_load(samples), hc_v_set(t->pass->tree->base)));
 }
 
 /* From the weights of a block's first sample to those of the others. */
@@ -299,15 +317,16 @@ static const int32_t NEAR_STEP[16] = {
 /* Samples of all chosen near blocks in one list: its end is the only branch that is hard to
  * predict. */
 INLINE void list_near_samples(const tile *t, int part, const hc_node_list *list,
-                              const hc_block_choice *chosen, hc_near_samples *wanted)
+                              const hc_choice *chosen, const hc_planes *planes,
+                              hc_near_samples *wanted)
 {
     const int x = t->x + 4 * (part & 1);
     const int y = t->y + 4 * (part >> 1);
     int       n = 0;
     for (int i = 0; i < chosen->count; i++) {
-        const int      b       = chosen->blocks[i];
+        const int      b       = chosen->number[i];
         const float   *samples = listed_samples(t, list, b);
-        const unsigned found   = samples_above(t, chosen, b, samples);
+        const unsigned found   = samples_above(t, planes, b, samples);
         const int      column  = 4 * hc_place_x(t->pass->tree, list->place[b]) - x;
         const int      row     = 4 * hc_place_y(t->pass->tree, list->place[b]) - y;
         const float   *weights = hc_near_weights(t->pass->near, column, row);
@@ -342,66 +361,81 @@ INLINE void search_near(kind k, tile *t)
 {
     const hc_node_list *list   = &t->scratch->near;
     hc_near_samples    *wanted = t->scratch->wanted;
-    hc_block_choice     chosen[HC_TILE_PARTS];
+    hc_choice           chosen[HC_TILE_PARTS];
+    hc_planes           planes[HC_TILE_PARTS];
     for (int part = 0; part < HC_TILE_PARTS; part++) {
-        choose_blocks(k, t, part, list, &chosen[part]);
+        choose_blocks(k, t, part, 1, list, &chosen[part], &planes[part]);
     }
     for (int part = 0; part < HC_TILE_PARTS; part++) {
-        list_near_samples(t, part, list, &chosen[part], &wanted[part]);
+        list_near_samples(t, part, list, &chosen[part], &planes[part], &wanted[part]);
     }
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         take_near_samples(t, part, &wanted[part]);
     }
 }
 
-/* The distant samples of one block that may limit the part. */
-INLINE void take_distant_block(kind k, tile *t, int part, const hc_node_list *list, int b,
-                               unsigned samples)
+/* The distant samples of one block that may limit the parts. */
+INLINE void take_distant_block(kind k, tile *t, int part, int parts, const hc_node_list *list,
+                               int b, unsigned samples)
 {
     const float *heights = listed_samples(t, list, b);
     const int    column  = 4 * hc_place_x(t->pass->tree, list->place[b]);
     const int    row     = 4 * hc_place_y(t->pass->tree, list->place[b]);
     for (; samples != 0; samples &= samples - 1) {
-        const int i = __builtin_ctz(samples);
-        const int x = column + COLUMN_INDEX[i];
-        const int y = row + ROW_INDEX[i];
-        if (take_distant(k, t, part, x, y, heights[i]) && t->home_image) {
+        const int i      = __builtin_ctz(samples);
+        const int x      = column + COLUMN_INDEX[i];
+        const int y      = row + ROW_INDEX[i];
+        bool      raised = false;
+        for (int p = part; p < part + parts; p++) {
+            raised |= take_distant(k, t, p, x, y, heights[i]);
+        }
+        if (raised && t->home_image) {
             remember(t->scratch, x, y, heights[i]);
         }
     }
 }
 
 /* First all chosen blocks, then the few that hold something: again without a branch for each. */
-INLINE void search_distant(kind k, tile *t, int part)
+INLINE void search_distant(kind k, tile *t, int part, int parts)
 {
     const hc_node_list *list = sift_distant(k, t, part);
-    hc_block_choice     chosen;
+    hc_choice           chosen;
+    hc_planes           planes;
     unsigned            samples[HC_LIST_ROOM];
     int                 hits = 0;
-    choose_blocks(k, t, part, list, &chosen);
+    choose_blocks(k, t, part, parts, list, &chosen, &planes);
     for (int i = 0; i < chosen.count; i++) {
-        const int      b     = chosen.blocks[i];
-        const unsigned found = samples_above(t, &chosen, b, listed_samples(t, list, b));
+        const int      b     = chosen.number[i];
+        const unsigned found = samples_above(t, &planes, b, listed_samples(t, list, b));
         samples[hits]        = found;
-        chosen.blocks[hits]  = b;
+        chosen.number[hits]  = b;
         hits += found != 0;
     }
     for (int i = 0; i < hits; i++) {
-        take_distant_block(k, t, part, list, chosen.blocks[i], samples[i]);
+        take_distant_block(k, t, part, parts, list, chosen.number[i], samples[i]);
     }
 }
 
-/* Near blocks raise the thresholds that let distant blocks be left out, and so does what the parts
- * before have just found. */
-INLINE void search_blocks(kind k, tile *t)
+/* Part by part: what the parts before have just found raises thresholds too. */
+INLINE void search_distant_by_parts(kind k, tile *t)
 {
     const unsigned known = t->scratch->recent.next;
-    search_near(k, t);
     for (int part = 0; part < HC_TILE_PARTS; part++) {
         for (unsigned i = known; i != t->scratch->recent.next; i++) {
             (void)guess_from_recent(k, t, part, (int)(i % HC_RECENT));
         }
-        search_distant(k, t, part);
+        search_distant(k, t, part, 1);
+    }
+}
+
+/* Near blocks raise the thresholds that let distant blocks be left out. */
+INLINE void search_blocks(kind k, tile *t)
+{
+    search_near(k, t);
+    if (k.together) {
+        search_distant(k, t, 0, HC_TILE_PARTS);
+    } else {
+        search_distant_by_parts(k, t);
     }
     t->scratch->near.count = t->scratch->lists[0].count = 0;
     t->stale                                            = true;

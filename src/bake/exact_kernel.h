@@ -185,26 +185,59 @@ INLINE int search_level(kind k, const tile *t, int level, int done)
     return done;
 }
 
+/* Squares that wait again as the list below is full: the near ones from number `near` on and the
+ * far ones from number `far` on. */
+static __attribute__((noinline)) void keep_squares(hc_node_list *list, const square_choice *chosen,
+                                                   int near, int far)
+{
+    const hc_node_list all = *list;
+    list->count            = 0;
+    for (int i = near; i < chosen->near.count; i++) {
+        list->place[list->count] = all.place[chosen->near.number[i]];
+        list->top[list->count++] = all.top[chosen->near.number[i]];
+    }
+    for (int i = far; i < chosen->far.count; i++) {
+        list->place[list->count] = all.place[chosen->far.number[i]];
+        list->top[list->count++] = all.top[chosen->far.number[i]];
+    }
+}
+
+/* Blocks of a chosen square that rise above its plane, which may lie below what stands for places
+ * outside the field. */
+INLINE unsigned blocks_above(kind k, const tile *t, const square_choice *chosen, int square,
+                             children c)
+{
+    const hc_v tops = hc_v_load(c.entries);
+    return above_plane(&chosen->planes, square, tops) & hc_v_greater(tops, hc_v_set(-1.0F))
+           & reached_lanes(k, t, c.across, c.down, MIDDLE + 1.5F);
+}
+
 /* The waiting squares, from number `done` on, by chords in the direction of each, which let far
- * fewer blocks pass than the envelope does. */
+ * fewer blocks pass than the envelope does. Most squares hold distant blocks alone. */
 INLINE int search_squares(kind k, const tile *t, int done)
 {
-    const hc_node_list *list  = &t->scratch->lists[1];
-    const hc_node_list *below = &t->scratch->lists[0];
-    const raster        r     = raster_of(t, 1);
-    hc_block_choice     chosen;
+    hc_node_list *list  = &t->scratch->lists[1];
+    hc_node_list *below = &t->scratch->lists[0];
+    const raster  r     = raster_of(t, 1);
+    int           near = 0, far = 0;
+    square_choice chosen;
     choose_squares(k, t, list, done, &chosen);
-    for (int i = 0; i < chosen.count; i++) {
-        const int      s     = chosen.blocks[i];
-        const children c     = children_at(t, r, list->place[s]);
-        const unsigned found = above_plane(&chosen, s, hc_v_load(c.entries))
-                               & reached_lanes(k, t, c.across, c.down, MIDDLE + 1.5F);
-        if (below->count > HC_LIST) {
-            return s;
-        }
-        list_blocks(t, found, list->place[s], c);
+    for (; near < chosen.near.count && below->count <= HC_LIST; near++) {
+        const int      square = chosen.near.number[near];
+        const children c      = children_at(t, r, list->place[square]);
+        list_blocks(t, blocks_above(k, t, &chosen, square, c), list->place[square], c);
     }
-    return list->count;
+    for (; far < chosen.far.count && below->count <= HC_LIST; far++) {
+        const int      square = chosen.far.number[far];
+        const children c      = children_at(t, r, list->place[square]);
+        list_children(t, below, blocks_above(k, t, &chosen, square, c), list->place[square],
+                      c.entries);
+    }
+    if (near == chosen.near.count && far == chosen.far.count) {
+        return list->count;
+    }
+    keep_squares(list, &chosen, near, far);
+    return 0;
 }
 
 /* Level by level while the lists have room, so that loops are long and their branches predictable;
@@ -278,7 +311,8 @@ INLINE void search_images(kind k, tile *t)
     const hc_exact_pass *pass   = t->pass;
     const int            home_x = t->x;
     const int            home_y = t->y;
-    t->home_image               = false;
+    k.together    = false; /* images may be out of step with the tile, and close to it */
+    t->home_image = false;
     for (int v = -(int)pass->wrap_v; v <= (int)pass->wrap_v; v++) {
         for (int u = -(int)pass->wrap_u; u <= (int)pass->wrap_u; u++) {
             if (u != 0 || v != 0) {
@@ -314,6 +348,13 @@ INLINE void search_tile(kind k, float *steepness, const hc_exact_pass *pass, int
     }
 }
 
+/* Round cones need few distant blocks, and samples much farther apart along one axis would make the
+ * tile's middle a poor place to look from. */
+static bool even(const hc_exact_pass *pass)
+{
+    return pass->step_u <= 4.0F * pass->step_v && pass->step_v <= 4.0F * pass->step_u;
+}
+
 void HC_EXACT_TILE(float *steepness, const hc_exact_pass *pass, int tile_x, int tile_y,
                    hc_exact_scratch *scratch)
 {
@@ -323,8 +364,11 @@ void HC_EXACT_TILE(float *steepness, const hc_exact_pass *pass, int tile_x, int 
     } else if (pass->diamond) {
         const kind diamond = { .diamond = true };
         search_tile(diamond, steepness, pass, tile_x, tile_y, scratch);
-    } else {
-        const kind round = { .diamond = false };
+    } else if (even(pass)) {
+        const kind round = { .together = true };
         search_tile(round, steepness, pass, tile_x, tile_y, scratch);
+    } else {
+        const kind stretched = { .diamond = false };
+        search_tile(stretched, steepness, pass, tile_x, tile_y, scratch);
     }
 }

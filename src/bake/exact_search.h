@@ -55,13 +55,17 @@ typedef struct hc_node_list {
     float   top[HC_LIST_ROOM]; /* highest sample below the node, minus base */
 } hc_node_list;
 
-/* What one part needs of a list: indices into it, and for every listed block a plane over its
- * samples that they must rise above: start + rise_u * column + rise_v * row. */
-typedef struct hc_block_choice {
+/* Some nodes of a list, by their numbers. */
+typedef struct hc_choice {
     int     count;
-    int32_t blocks[HC_LIST_ROOM];
-    float   start[HC_LIST_ROOM], rise_u[HC_LIST_ROOM], rise_v[HC_LIST_ROOM];
-} hc_block_choice;
+    int32_t number[HC_LIST_ROOM];
+} hc_choice;
+
+/* For every node of a list a plane over its entries that they must rise above to matter:
+ * start + rise_u * column + rise_v * row. */
+typedef struct hc_planes {
+    float start[HC_LIST_ROOM], rise_u[HC_LIST_ROOM], rise_v[HC_LIST_ROOM];
+} hc_planes;
 
 /* Samples near one part, and where their weights begin in the table. */
 typedef struct hc_near_samples {

@@ -58,6 +58,7 @@ typedef struct tile {
 /* The kind of search; constant where the kernel is compiled, so that its branches vanish. */
 typedef struct kind {
     bool diamond, quadrant;
+    bool together; /* all parts look at distant blocks together, from the tile's middle */
 } kind;
 
 #ifndef INLINE
