@@ -19,7 +19,7 @@ enum { COARSEST = 6 };
 enum { FIRST_LEVEL = 1 };
 
 typedef struct layout {
-    size_t heights, blocks, towers; /* elements, and words */
+    size_t heights, lows, blocks, towers; /* elements, and words */
 } layout;
 
 static hc_fast_axis make_axis(int samples, double period, bool wrapped, bool posts,
@@ -72,6 +72,23 @@ static size_t rows_of(int rows, int bits)
     return (size_t)((rows + (1 << bits) - 1) >> bits) << bits;
 }
 
+/* Squares of how many cells have their lowest heights kept. Returns their number. */
+static size_t plan_lows(hc_fast *fast)
+{
+    enum { MOST = 1 << 17 };
+    size_t count = 0;
+    if (!hc_fast_plain(fast)) {
+        return 0;
+    }
+    do {
+        fast->low_bits++;
+        fast->stride_lows = (fast->x.cells >> fast->low_bits) + 1;
+        fast->rows_lows   = (fast->y.cells >> fast->low_bits) + 1;
+        count             = (size_t)fast->stride_lows * (size_t)fast->rows_lows;
+    } while (count > MOST);
+    return count;
+}
+
 /* Everything but the memory. */
 static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
 {
@@ -92,7 +109,7 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
-                     blocks, hc_fast_plan_towers(fast) };
+                     plan_lows(fast), blocks, hc_fast_plan_towers(fast) };
 }
 
 static float highest_of(const hc_field *field)
@@ -105,6 +122,12 @@ static float highest_of(const hc_field *field)
     return most;
 }
 
+/* The lowest heights stand behind all others. */
+static size_t height_bytes(const layout *sizes)
+{
+    return (sizes->heights + sizes->lows) * sizeof(float);
+}
+
 /* Towers stand behind the blocks, where the last page has room for most of them. */
 static size_t block_bytes(const layout *sizes)
 {
@@ -115,7 +138,7 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
 {
     hc_fast      fast;
     const layout sizes = plan(&fast, field, options);
-    return sizeof fast + hc_memory_taken(sizes.heights * sizeof(float))
+    return sizeof fast + hc_memory_taken(height_bytes(&sizes))
            + hc_memory_taken(block_bytes(&sizes));
 }
 
@@ -130,8 +153,11 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     made->tracer       = tracer;
     made->isa          = hc_isa_resolve(options->isa);
     made->highest      = (double)highest_of(field);
-    made->heights      = hc_take_memory(sizes.heights * sizeof(float));
+    made->heights      = hc_take_memory(height_bytes(&sizes));
     made->blocks       = hc_take_memory(block_bytes(&sizes));
+    if (made->heights != NULL) {
+        made->lows = made->heights + sizes.heights;
+    }
     if (made->blocks != NULL) {
         hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
     }

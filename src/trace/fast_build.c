@@ -45,6 +45,11 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
+static int lesser(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 static int sample_of(const hc_fast_axis *axis, int corner)
 {
     const int sample = corner + axis->first;
@@ -73,6 +78,43 @@ static void copy_heights(void *context, int y, int worker)
     b->steepest[y] = largest;
 }
 
+static void find_lows(void *context, int y, int worker)
+{
+    const builder *b    = context;
+    const hc_fast *fast = b->fast;
+    const int      side = 1 << fast->low_bits;
+    const int      last = lesser((y + 1) * side, fast->y.cells);
+    float         *to   = fast->lows + (size_t)y * (size_t)fast->stride_lows;
+    (void)worker;
+    for (int x = 0; x < fast->stride_lows; x++) {
+        const int end    = lesser((x + 1) * side, fast->x.cells);
+        float     lowest = INFINITY;
+        for (int j = y * side; j <= last; j++) {
+            for (int i = x * side; i <= end; i++) {
+                const float height = fast->heights[hc_fast_corner(fast, i, j)];
+                lowest             = height < lowest ? height : lowest;
+            }
+        }
+        to[x] = lowest;
+    }
+}
+
+/* The ground rises far above its lowest heights everywhere. */
+static bool is_rough(const hc_fast *fast)
+{
+    const int side = 1 << fast->low_bits;
+    double    rise = 0.0;
+    for (int y = 0; y < fast->rows_lows; y++) {
+        const int j = lesser(y * side + side / 2, fast->y.cells);
+        for (int x = 0; x < fast->stride_lows; x++) {
+            const int   i   = lesser(x * side + side / 2, fast->x.cells);
+            const float low = fast->lows[(size_t)y * (size_t)fast->stride_lows + (size_t)x];
+            rise += (double)(fast->heights[hc_fast_corner(fast, i, j)] - low);
+        }
+    }
+    return rise > 0.25 * fast->highest * (double)fast->rows_lows * (double)fast->stride_lows;
+}
+
 /* Tops of blocks of the finest level, from their cells' corners; on steps, from their samples. */
 static void top_cells(void *context, int y, int worker)
 {
@@ -80,7 +122,7 @@ static void top_cells(void *context, int y, int worker)
     const hc_fast *fast  = b->fast;
     const int      side  = fast->steps ? 0 : 1;
     const int      above = y * BASE;
-    const int      last  = above + BASE < fast->y.cells ? above + BASE : fast->y.cells;
+    const int      last  = lesser(above + BASE, fast->y.cells);
     float         *tops  = b->levels[0].tops + (size_t)y * b->levels[0].pitch;
     (void)worker;
     for (int j = above; j < last + side; j++) {
@@ -99,7 +141,7 @@ static void top_blocks(void *context, int y, int worker)
     const level   *fine   = &b->levels[b->current - 1];
     const level   *coarse = &b->levels[b->current];
     float         *tops   = coarse->tops + (size_t)y * coarse->pitch;
-    const int      rows   = fine->height - y * RATIO < RATIO ? fine->height - y * RATIO : RATIO;
+    const int      rows   = lesser(fine->height - y * RATIO, RATIO);
     (void)worker;
     for (int x = 0; x < coarse->width; x++) {
         float top = 0.0F;
@@ -134,10 +176,10 @@ static void edge_cells(void *context, int y, int worker)
     const builder *b    = context;
     const hc_fast *fast = b->fast;
     const level   *l    = &b->levels[0];
-    const int      last = y * BASE + BASE < fast->y.cells ? y * BASE + BASE : fast->y.cells;
+    const int      last = lesser(y * BASE + BASE, fast->y.cells);
     (void)worker;
     for (int x = 0; x < l->width; x++) {
-        const int end    = x * BASE + BASE < fast->x.cells ? x * BASE + BASE : fast->x.cells;
+        const int end    = lesser(x * BASE + BASE, fast->x.cells);
         float     column = 0.0F;
         float     row    = 0.0F;
         for (int j = y * BASE; j <= last; j++) {
@@ -159,10 +201,10 @@ static void edge_blocks(void *context, int y, int worker)
     const builder *b      = context;
     const level   *fine   = &b->levels[b->current - 1];
     const level   *coarse = &b->levels[b->current];
-    const int      high   = fine->height - y * RATIO < RATIO ? fine->height - y * RATIO : RATIO;
+    const int      high   = lesser(fine->height - y * RATIO, RATIO);
     (void)worker;
     for (int x = 0; x < coarse->width; x++) {
-        const int wide = fine->width - x * RATIO < RATIO ? fine->width - x * RATIO : RATIO;
+        const int wide = lesser(fine->width - x * RATIO, RATIO);
         for (int side = 0; side < SIDES; side++) {
             const bool upright = side == LEFT || side == RIGHT;
             float      most    = 0.0F;
@@ -517,6 +559,10 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     const float steepest = steepest_of(b);
     fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
     fast->slack          = 6.0F * fast->blur * steepest + fast->least;
+    if (hc_fast_plain(fast)) {
+        (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
+        fast->rough = is_rough(fast);
+    }
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     top_levels(b, threads, log);
     see_far(b, threads, log);

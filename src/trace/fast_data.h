@@ -75,6 +75,13 @@ struct hc_fast {
     int    stride_heights;
     float *heights;
 
+    /* The lowest heights of squares of 2^low_bits cells a side, row by row, few enough for the
+     * second-level cache: where rays that ask for any hit are looked at first. None where they are
+     * not: hc_fast_plain. On rough ground they say little about the heights around them. */
+    int    low_bits, stride_lows, rows_lows;
+    float *lows;
+    bool   rough;
+
     /* All levels, the finest first: hc_fast_block_at. Each has one more block at the ends of its
      * rows, and one more row: rays at an edge may be put beyond it. */
     int            levels, first_level;   /* where marching begins            */

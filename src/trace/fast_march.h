@@ -285,38 +285,81 @@ static inline hc_v gap_at(const corners *h, hc_v x, hc_v y, hc_v z)
     return hc_v_sub(z, hc_v_about_muladd(y, hc_v_sub(lower, upper), upper));
 }
 
+/* Where rays are at s, and on which cell. */
+typedef struct spot {
+    hc_v x, y, z;
+    hc_i i, j;
+} spot;
+
+static inline spot find_spot(const hc_fast *fast, const runners *ray, hc_v s)
+{
+    const hc_v x = hc_v_about_muladd(s, hc_v_load(ray->dx), hc_v_load(ray->x));
+    const hc_v y = hc_v_about_muladd(s, hc_v_load(ray->dy), hc_v_load(ray->y));
+    const hc_v z = hc_v_about_muladd(s, hc_v_load(ray->dz), hc_v_load(ray->z));
+    const hc_i i = hc_i_max(hc_i_min(hc_i_from_v(x), hc_i_set(fast->x.cells - 1)), hc_i_set(0));
+    const hc_i j = hc_i_max(hc_i_min(hc_i_from_v(y), hc_i_set(fast->y.cells - 1)), hc_i_set(0));
+    return (spot){ x, y, z, i, j };
+}
+
 /* How far above the patches rays are at s, but for what fast->slack allows. */
 static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
 {
-    const hc_v    x = hc_v_about_muladd(s, hc_v_load(ray->dx), hc_v_load(ray->x));
-    const hc_v    y = hc_v_about_muladd(s, hc_v_load(ray->dy), hc_v_load(ray->y));
-    const hc_v    z = hc_v_about_muladd(s, hc_v_load(ray->dz), hc_v_load(ray->z));
-    const hc_i    i = hc_i_max(hc_i_min(hc_i_from_v(x), hc_i_set(fast->x.cells - 1)), hc_i_set(0));
-    const hc_i    j = hc_i_max(hc_i_min(hc_i_from_v(y), hc_i_set(fast->y.cells - 1)), hc_i_set(0));
-    const corners h = find_corners(fast, i, j, lanes);
-    return gap_at(&h, hc_v_sub(x, hc_v_from_i(i)), hc_v_sub(y, hc_v_from_i(j)), z);
+    const spot    at = find_spot(fast, ray, s);
+    const corners h  = find_corners(fast, at.i, at.j, lanes);
+    const hc_v    u  = hc_v_sub(at.x, hc_v_from_i(at.i));
+    const hc_v    v  = hc_v_sub(at.y, hc_v_from_i(at.j));
+    return gap_at(&h, u, v, at.z);
 }
 
-/* Rays that are certainly below the surface somewhere on their way, and so have hit it. Of a way
- * from ground to ground the middle first, then what it leaves out; a ray that climbs a quarter of
- * the field's height, as to the sun, is hidden by what is near. Finer if that finds something. */
-static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
+/* How far above the lowest height around them rays are at s, but for what fast->slack allows. */
+static inline hc_v gap_to_low(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
 {
-    enum { PROBES = 7, COARSE = 3 };
-    static const float level[PROBES] = { 0.5F, 0.25F, 0.75F, 0.125F, 0.375F, 0.625F, 0.875F };
-    static const float climb[PROBES] = { 0.125F,  0.03125F, 0.25F,  0.015625F,
-                                         0.0625F, 0.375F,   0.1875F };
-    const hc_v         slack         = hc_v_set(-fast->slack);
-    const hc_v         way           = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
-    const hc_v         rise          = hc_v_mul(way, hc_v_load(ray->dz));
-    const unsigned     climbs        = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
-    unsigned           below         = 0;
-    for (int k = 0; k < PROBES && below != lanes && (k < COARSE || below != 0); k++) {
-        const hc_v part = hc_v_pick(climbs, hc_v_set(climb[k]), hc_v_set(level[k]));
-        const hc_v gap  = gap_after(fast, ray, hc_v_mul(way, part), lanes & ~below);
+    const spot at   = find_spot(fast, ray, s);
+    const hc_i bits = hc_i_set(fast->low_bits);
+    const hc_i low =
+        index_of(hc_i_right(at.i, bits), hc_i_right(at.j, bits), hc_i_set(fast->stride_lows), 0);
+    return hc_v_sub(at.z, hc_v_gather(fast->lows, low, lanes));
+}
+
+/* Where rays that ask for any hit are looked at, as shares of their way: those from ground to
+ * ground, and those that climb a quarter of the field's height, as to the sun, which are hidden by
+ * what is near. Each place is the one that finds most of what the places before it leave. */
+enum { MANY_PLACES = 13, FEW_PLACES = 7 };
+static const float LEVEL_PLACES[MANY_PLACES] = { 0.22F, 0.78F, 0.04F, 0.96F, 0.5F,  0.36F, 0.64F,
+                                                 0.12F, 0.88F, 0.3F,  0.7F,  0.43F, 0.57F };
+static const float CLIMB_PLACES[MANY_PLACES] = { 0.15F, 0.4F, 0.04F, 0.25F, 0.07F,  0.02F, 0.6F,
+                                                 0.1F,  0.3F, 0.03F, 0.5F,  0.012F, 0.2F };
+
+/* Rays below the surface at one of so many places. */
+static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes,
+                                  int places, bool low)
+{
+    const hc_v     slack  = hc_v_set(-fast->slack);
+    const hc_v     way    = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
+    const hc_v     rise   = hc_v_mul(way, hc_v_load(ray->dz));
+    const unsigned climbs = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
+    unsigned       below  = 0;
+    for (int k = 0; k < places && below != lanes; k++) {
+        const hc_v part = hc_v_pick(climbs, hc_v_set(CLIMB_PLACES[k]), hc_v_set(LEVEL_PLACES[k]));
+        const hc_v s    = hc_v_mul(way, part);
+        const hc_v gap  = low ? gap_to_low(fast, ray, s, lanes & ~below)
+                              : gap_after(fast, ray, s, lanes & ~below);
         below |= hc_v_greater(slack, gap) & lanes;
     }
     return below;
+}
+
+static __attribute__((noinline)) unsigned probe_rough(const hc_fast *fast, const runners *ray,
+                                                      unsigned lanes)
+{
+    return find_below(fast, ray, lanes, FEW_PLACES, false);
+}
+
+/* Rays that are certainly below the surface somewhere on their way, and so have hit it. */
+static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
+{
+    const int places = fast->low_bits > 1 ? MANY_PLACES : FEW_PLACES; /* marches cost less there */
+    return fast->rough ? probe_rough(fast, ray, lanes) : find_below(fast, ray, lanes, places, true);
 }
 
 /* What looking at the patches under lanes has shown. */

@@ -203,6 +203,43 @@ static void towers_between_bins_are_met_from_both(void **state)
     assert_in_range(found, COUNT / 10, COUNT * 9 / 10);
 }
 
+/* Squares whose lowest heights answer rays have two cells a side up to about 700 x 700 samples. */
+static void any_hit_is_a_hit_on_large_fields(void **state)
+{
+    enum { COUNT = 6000 };
+    static const char *const names[]    = { "fbm", "noise", "cobbles", "dem", "steps" };
+    static const int         sizes[][2] = { { 800, 700 }, { 3, 200000 }, { 1500, 1400 } };
+    static hc_ray            rays[COUNT];
+    static hc_hit            hits[COUNT];
+    static uint8_t           any[COUNT];
+    uint64_t                 random = 45;
+    (void)state;
+    for (int i = 0; i < 15; i += AGREE_STRIDE) {
+        hc_field field =
+            agree_named_field(names[i / 3], sizes[i % 3][0], sizes[i % 3][1], 3, HC_WRAP_NONE);
+        hc_tracer *tracer;
+        int        found = 0;
+        assert_int_equal(hc_tracer_create(&tracer, &field, NULL, NULL), HC_OK);
+        for (int k = 0; k < COUNT; k++) {
+            rays[k] = agree_ray(&field, (agree_rays)(k / 16 % RAYS_SETS), &random);
+        }
+        hc_trace_nearest_many(tracer, hits, rays, COUNT);
+        hc_trace_any_many(tracer, any, rays, COUNT);
+        for (int k = 0; k < COUNT; k++) {
+            if ((any[k] != 0) != (hits[k].t < INFINITY)
+                || (k % 10 == 0 && hc_trace_any(tracer, &rays[k]) != (any[k] != 0))) {
+                fail_msg(
+                    "%s: ray %d, %s, hits at %.9g, any %d", agree_describe(names[i / 3], &field), k,
+                    agree_rays_name((agree_rays)(k / 16 % RAYS_SETS)), (double)hits[k].t, any[k]);
+            }
+            found += any[k];
+        }
+        assert_in_range(found, COUNT / 10, COUNT * 9 / 10);
+        hc_tracer_destroy(tracer);
+        agree_free(&field);
+    }
+}
+
 static double mean_steps(int side)
 {
     enum { COUNT = 4000 };
@@ -237,6 +274,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(the_same_hits_with_every_instruction_set),
         cmocka_unit_test(beams_hit_like_their_rays),
+        cmocka_unit_test(any_hit_is_a_hit_on_large_fields),
         cmocka_unit_test(towers_between_bins_are_met_from_both),
         cmocka_unit_test(steps_grow_as_the_logarithm_of_the_side),
     };
