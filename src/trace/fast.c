@@ -75,9 +75,9 @@ static size_t rows_of(int rows, int bits)
 /* Squares of how many cells have their lowest heights kept. Returns their number. */
 static size_t plan_lows(hc_fast *fast)
 {
-    enum { MOST = 1 << 17 };
+    enum { FEW_CELLS = 1 << 19, MOST = 520 * 520 };
     size_t count = 0;
-    if (!hc_fast_plain(fast)) {
+    if (!hc_fast_plain(fast) || fast->x.cells < FEW_CELLS / fast->y.cells) {
         return 0;
     }
     do {

@@ -559,9 +559,9 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     const float steepest = steepest_of(b);
     fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
     fast->slack          = 6.0F * fast->blur * steepest + fast->least;
-    if (hc_fast_plain(fast)) {
+    if (fast->low_bits > 0) {
         (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
-        fast->rough = is_rough(fast);
+        fast->low_bits = is_rough(fast) ? 0 : fast->low_bits;
     }
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     top_levels(b, threads, log);

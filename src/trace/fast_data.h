@@ -76,11 +76,11 @@ struct hc_fast {
     float *heights;
 
     /* The lowest heights of squares of 2^low_bits cells a side, row by row, few enough for the
-     * second-level cache: where rays that ask for any hit are looked at first. None where they are
-     * not: hc_fast_plain. On rough ground they say little about the heights around them. */
+     * second-level cache: rays that ask for any hit are looked at there first. low_bits is 0 and
+     * there are none on small fields, on rough ground, where they say little, and where rays have
+     * other things to see to (hc_fast_plain). */
     int    low_bits, stride_lows, rows_lows;
     float *lows;
-    bool   rough;
 
     /* All levels, the finest first: hc_fast_block_at. Each has one more block at the ends of its
      * rows, and one more row: rays at an edge may be put beyond it. */

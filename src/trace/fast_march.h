@@ -324,22 +324,23 @@ static inline hc_v gap_to_low(const hc_fast *fast, const runners *ray, hc_v s, u
 /* Where rays that ask for any hit are looked at, as shares of their way: those from ground to
  * ground, and those that climb a quarter of the field's height, as to the sun, which are hidden by
  * what is near. Each place is the one that finds most of what the places before it leave. */
-enum { MANY_PLACES = 13, FEW_PLACES = 7 };
-static const float LEVEL_PLACES[MANY_PLACES] = { 0.22F, 0.78F, 0.04F, 0.96F, 0.5F,  0.36F, 0.64F,
-                                                 0.12F, 0.88F, 0.3F,  0.7F,  0.43F, 0.57F };
-static const float CLIMB_PLACES[MANY_PLACES] = { 0.15F, 0.4F, 0.04F, 0.25F, 0.07F,  0.02F, 0.6F,
-                                                 0.1F,  0.3F, 0.03F, 0.5F,  0.012F, 0.2F };
+enum { PLACES = 13, FEW_PLACES = 7, COARSE_PLACES = 3 };
+static const float LEVEL_PLACES[PLACES] = { 0.22F, 0.78F, 0.04F, 0.96F, 0.5F,  0.36F, 0.64F,
+                                            0.12F, 0.88F, 0.3F,  0.7F,  0.43F, 0.57F };
+static const float CLIMB_PLACES[PLACES] = { 0.15F, 0.4F, 0.04F, 0.25F, 0.07F,  0.02F, 0.6F,
+                                            0.1F,  0.3F, 0.03F, 0.5F,  0.012F, 0.2F };
 
-/* Rays below the surface at one of so many places. */
-static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes,
-                                  int places, bool low)
+/* Rays below the lowest heights at one of the places, or below the patches at one of the first:
+ * fewer, as these cost more, and only if a few of them find something. */
+static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes, bool low)
 {
+    const int      places = low ? PLACES : FEW_PLACES;
     const hc_v     slack  = hc_v_set(-fast->slack);
     const hc_v     way    = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
     const hc_v     rise   = hc_v_mul(way, hc_v_load(ray->dz));
     const unsigned climbs = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
     unsigned       below  = 0;
-    for (int k = 0; k < places && below != lanes; k++) {
+    for (int k = 0; k < places && below != lanes && (low || k < COARSE_PLACES || below != 0); k++) {
         const hc_v part = hc_v_pick(climbs, hc_v_set(CLIMB_PLACES[k]), hc_v_set(LEVEL_PLACES[k]));
         const hc_v s    = hc_v_mul(way, part);
         const hc_v gap  = low ? gap_to_low(fast, ray, s, lanes & ~below)
@@ -349,17 +350,17 @@ static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsig
     return below;
 }
 
-static __attribute__((noinline)) unsigned probe_rough(const hc_fast *fast, const runners *ray,
-                                                      unsigned lanes)
+static __attribute__((noinline)) unsigned probe_patches(const hc_fast *fast, const runners *ray,
+                                                        unsigned lanes)
 {
-    return find_below(fast, ray, lanes, FEW_PLACES, false);
+    return find_below(fast, ray, lanes, false);
 }
 
 /* Rays that are certainly below the surface somewhere on their way, and so have hit it. */
 static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
 {
-    const int places = fast->low_bits > 1 ? MANY_PLACES : FEW_PLACES; /* marches cost less there */
-    return fast->rough ? probe_rough(fast, ray, lanes) : find_below(fast, ray, lanes, places, true);
+    return fast->low_bits > 0 ? find_below(fast, ray, lanes, true)
+                              : probe_patches(fast, ray, lanes);
 }
 
 /* What looking at the patches under lanes has shown. */

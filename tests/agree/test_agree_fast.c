@@ -203,7 +203,7 @@ static void towers_between_bins_are_met_from_both(void **state)
     assert_in_range(found, COUNT / 10, COUNT * 9 / 10);
 }
 
-/* Squares whose lowest heights answer rays have two cells a side up to about 700 x 700 samples. */
+/* Fields large enough for the lowest heights of squares, of 2 and 4 cells a side. */
 static void any_hit_is_a_hit_on_large_fields(void **state)
 {
     enum { COUNT = 6000 };
