@@ -4,6 +4,7 @@
 #include "base/fail.h"
 #include "base/parallel.h"
 #include "canonical.h"
+#include "field/shape.h"
 
 const float hc_aniso_elongation[HC_ANISO_COUNT] = { 0.25F, 0.5F, 1.0F, 2.0F, 4.0F };
 
@@ -54,10 +55,6 @@ void hc_write_ratios(float *ratios, hc_cones cones, const float *steepness)
 hc_result hc_cone_job_init(hc_cone_job *job, float *ratios, const hc_field *field,
                            const hc_cone_options *options, hc_log *log)
 {
-    const hc_result checked = hc_field_check(field, log);
-    if (checked != HC_OK) {
-        return checked;
-    }
     if (hc_cones_channels(options->cones) == 0 || hc_method_name(options->method) == NULL
         || !hc_method_makes(options->method, options->cones)) {
         return hc_fail(log, HC_ERROR_ARGUMENT, "options.method %d does not make cones %d",
@@ -71,6 +68,11 @@ hc_result hc_cone_job_init(hc_cone_job *job, float *ratios, const hc_field *fiel
             "0..4096",
             (double)options->max_ratio, options->threads, HC_THREADS_MAX, options->gems_steps);
     }
+    const int       threads = hc_threads_resolve(options->threads);
+    const hc_result checked = hc_field_check_on(field, threads, log);
+    if (checked != HC_OK) {
+        return checked;
+    }
     *job = (hc_cone_job){ .ratios     = ratios,
                           .heights    = field->heights,
                           .width      = field->width,
@@ -81,7 +83,7 @@ hc_result hc_cone_job_init(hc_cone_job *job, float *ratios, const hc_field *fiel
                           .step_v     = (float)hc_field_step_v(field),
                           .cones      = options->cones,
                           .channels   = hc_cones_channels(options->cones),
-                          .threads    = hc_threads_resolve(options->threads),
+                          .threads    = threads,
                           .isa        = hc_isa_resolve(options->isa),
                           .gems_steps = options->gems_steps == 0 ? 64 : options->gems_steps,
                           .progress   = options->progress,

@@ -1,6 +1,8 @@
 /* What a field is: names, distances, validity, and the surface between its samples. */
 #include "shape.h"
 
+#include "base/parallel.h"
+
 #include <math.h>
 
 const char *hc_wrap_name(hc_wrap wrap)
@@ -134,24 +136,63 @@ static bool row_in_range(const float *row, int width)
     return outside == 0;
 }
 
-hc_result hc_field_check(const hc_field *field, hc_log *log)
+/* Rows of a field, and the first that each worker has found wrong. */
+typedef struct check {
+    const hc_field *field;
+    int             first[HC_THREADS_MAX];
+} check;
+
+static const float *row_of(const hc_field *field, int y)
 {
+    return field->heights + (size_t)y * (size_t)field->width;
+}
+
+static void check_row(void *context, int y, int worker)
+{
+    check *c = context;
+    if (y < c->first[worker] && !row_in_range(row_of(c->field, y), c->field->width)) {
+        c->first[worker] = y;
+    }
+}
+
+/* The first row that is wrong; the height, if there is none. */
+static int find_wrong_row(const hc_field *field, int threads)
+{
+    check c = { .field = field };
+    for (int i = 0; i < threads; i++) {
+        c.first[i] = field->height;
+    }
+    (void)hc_parallel_for(field->height, threads, check_row, &c, (hc_progress){ 0 }, NULL);
+    int first = field->height;
+    for (int i = 0; i < threads; i++) {
+        first = c.first[i] < first ? c.first[i] : first;
+    }
+    return first;
+}
+
+hc_result hc_field_check_on(const hc_field *field, int threads, hc_log *log)
+{
+    enum { FEW = 1 << 22 }; /* samples that are checked sooner than a thread is started */
     const hc_result shape = check_shape(field, log);
     if (shape != HC_OK) {
         return shape;
     }
-    for (int y = 0; y < field->height; y++) {
-        const float *row = field->heights + (size_t)y * (size_t)field->width;
-        if (row_in_range(row, field->width)) {
-            continue;
-        }
-        int x = 0;
-        while (in_range(row[x])) {
-            x++;
-        }
-        return hc_fail(log, HC_ERROR_FIELD,
-                       "field.heights[%d, %d] is %g; heights must be finite and in 0..1", x, y,
-                       (double)row[x]);
+    const bool few = field->height < FEW / field->width;
+    const int  y   = find_wrong_row(field, few ? 1 : threads);
+    if (y == field->height) {
+        return HC_OK;
     }
-    return HC_OK;
+    const float *row = row_of(field, y);
+    int          x   = 0;
+    while (in_range(row[x])) {
+        x++;
+    }
+    return hc_fail(log, HC_ERROR_FIELD,
+                   "field.heights[%d, %d] is %g; heights must be finite and in 0..1", x, y,
+                   (double)row[x]);
+}
+
+hc_result hc_field_check(const hc_field *field, hc_log *log)
+{
+    return hc_field_check_on(field, 1, log);
 }

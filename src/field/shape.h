@@ -11,4 +11,7 @@
 hc_result hc_check_shape(const char *what, int width, int height, size_t element_bytes,
                          hc_log *log);
 
+/* hc_field_check on several threads, if that pays. */
+hc_result hc_field_check_on(const hc_field *field, int threads, hc_log *log);
+
 #endif

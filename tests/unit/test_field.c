@@ -1,9 +1,12 @@
 /* Names, distances, surfaces and the check of fields. */
+#include <heightcast/bake.h>
 #include <heightcast/field.h>
 
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include <cmocka.h>
@@ -185,6 +188,32 @@ static void test_check_heights(void **state)
     }
 }
 
+/* A field large enough for threads to share the check. */
+static void test_threads_name_the_first_height(void **state)
+{
+    (void)state;
+    enum { WIDTH = 2100, HEIGHT = 2000 };
+    float *heights = calloc((size_t)WIDTH * HEIGHT, sizeof *heights);
+    float *ratios  = malloc((size_t)WIDTH * HEIGHT * sizeof *ratios);
+    assert_non_null(heights);
+    assert_non_null(ratios);
+    const hc_field        field   = { .heights = heights, .width = WIDTH, .height = HEIGHT };
+    const hc_cone_options options = { .method = HC_METHOD_QUICK, .threads = 3 };
+    for (int y = HEIGHT - 1; y > 0; y -= 199) {
+        hc_log log             = { 0 };
+        heights[y * WIDTH + 7] = NAN;
+        assert_int_equal(hc_bake_cone_map(ratios, &field, &options, &log), HC_ERROR_FIELD);
+        hc_log alone = { 0 };
+        assert_int_equal(hc_field_check(&field, &alone), HC_ERROR_FIELD);
+        assert_string_equal(log.text, alone.text);
+        char place[40];
+        (void)snprintf(place, sizeof place, "field.heights[7, %d] is nan", y);
+        assert_non_null(strstr(log.text, place));
+    }
+    free(heights);
+    free(ratios);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +227,7 @@ int main(void)
         cmocka_unit_test(test_surface_of_one_sample),
         cmocka_unit_test(test_check_shape),
         cmocka_unit_test(test_check_heights),
+        cmocka_unit_test(test_threads_name_the_first_height),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
