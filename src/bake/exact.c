@@ -188,24 +188,36 @@ void hc_exact_search_tile(const hc_exact_plan *plan, float *ratios, int tile_x, 
  * second-level cache from one row to the next. */
 enum { STRIP_TILES = 32 };
 
+/* Tiles that one thread does one after the other, so that it finds what it looks at in its own
+ * cache: rows of a strip, fewer where they would not go round. */
+enum { PIECE_ROWS = 32, PIECES_EACH = 16 };
+
 typedef struct bake {
     const hc_exact_plan *plan;
     float               *ratios;
-    int                  rows;
+    int                  rows;                     /* of tiles            */
+    int                  piece_rows, strip_pieces; /* of a piece; a strip */
 } bake;
 
 /* Every other row backwards: the next tile is nearly always a neighbour, whose first guesses are
  * good. */
-static void bake_strip_row(void *context, int item, int worker)
+static void bake_row(const bake *b, int strip, int row, int worker)
 {
-    const bake *b     = context;
-    const int   tiles = (b->plan->tree.width + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
-    const int   row   = item % b->rows;
-    const int   first = item / b->rows * STRIP_TILES;
-    const int   count = tiles - first < STRIP_TILES ? tiles - first : STRIP_TILES;
+    const int tiles = (b->plan->tree.width + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
+    const int first = strip * STRIP_TILES;
+    const int count = tiles - first < STRIP_TILES ? tiles - first : STRIP_TILES;
     for (int i = 0; i < count; i++) {
         const int tile_x = first + (row % 2 == 0 ? i : count - 1 - i);
         hc_exact_search_tile(b->plan, b->ratios, tile_x, row, worker);
+    }
+}
+
+static void bake_piece(void *context, int item, int worker)
+{
+    const bake *b     = context;
+    const int   first = item % b->strip_pieces * b->piece_rows;
+    for (int row = first; row < first + b->piece_rows && row < b->rows; row++) {
+        bake_row(b, item / b->strip_pieces, row, worker);
     }
 }
 
@@ -213,10 +225,16 @@ hc_result hc_exact_plan_run(const hc_exact_plan *plan, const hc_cone_job *job)
 {
     const int strip  = STRIP_TILES * HC_TILE_SIDE;
     const int strips = (job->width + strip - 1) / strip;
-    bake      b      = { .plan   = plan,
-                         .ratios = job->ratios,
-                         .rows   = (job->height + HC_TILE_SIDE - 1) / HC_TILE_SIDE };
-    return hc_parallel_for(strips * b.rows, job->threads, bake_strip_row, &b, job->progress,
+    const int rows   = (job->height + HC_TILE_SIDE - 1) / HC_TILE_SIDE;
+    const int fair   = (int)((int64_t)strips * rows / (PIECES_EACH * job->threads));
+    bake      b      = { .plan       = plan,
+                         .ratios     = job->ratios,
+                         .rows       = rows,
+                         .piece_rows = fair < 1            ? 1
+                                       : fair > PIECE_ROWS ? PIECE_ROWS
+                                                           : fair };
+    b.strip_pieces   = (rows + b.piece_rows - 1) / b.piece_rows;
+    return hc_parallel_for(strips * b.strip_pieces, job->threads, bake_piece, &b, job->progress,
                            job->log);
 }
 
