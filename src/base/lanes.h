@@ -7,13 +7,18 @@
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
  * hc_rows            the reverse: word k of the eight words at rows[i] from word i of columns[k]
  * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i]
- * hc_highest_of      highest[k] of all lanes of rows[k], sixteen rows */
+ * hc_highest_of      highest[k] of all lanes of rows[k], sixteen rows
+ *
+ * HC_ROW(type) row[HC_LANES] stands on cache lines of its own, and so do the rows after it in a
+ * struct: vectors that lie across two lines take twice as long to read and to write. */
 #ifndef HC_BASE_LANES_H
 #define HC_BASE_LANES_H
 
 #include "simd.h"
 
 enum { HC_ROW_WORDS = 8, HC_HIGHEST = 16 };
+
+#define HC_ROW(type) _Alignas(HC_LANES * sizeof(type)) type
 
 #if defined(HC_SIMD_AVX512)
 

@@ -20,7 +20,8 @@ struct group {
 };
 
 typedef struct beams {
-    float   low[2][HC_LANES], high[2][HC_LANES], z[HC_LANES]; /* of the box, where s is 0 */
+    HC_ROW(float) low[2][HC_LANES];
+    float   high[2][HC_LANES], z[HC_LANES]; /* of the box, where s is 0 */
     float   low_rate[2][HC_LANES], high_rate[2][HC_LANES], dz[HC_LANES]; /* per s       */
     float   over[2][HC_LANES];                      /* 1 / rate of the side ahead */
     int32_t ahead[2][HC_LANES], quadrant[HC_LANES]; /* as of runners              */

@@ -9,7 +9,8 @@
 
 /* Cells in question. Twice the lanes: lanes are added sixteen at a time, and decided likewise. */
 typedef struct trials {
-    int32_t which[2 * HC_LANES], lane[2 * HC_LANES]; /* lane -1: it has been given to another ray */
+    HC_ROW(int32_t) which[2 * HC_LANES];
+    int32_t lane[2 * HC_LANES]; /* -1: it has been given to another ray */
     int32_t cell_x[2 * HC_LANES], cell_y[2 * HC_LANES];
     int32_t steps[2 * HC_LANES], crossings[2 * HC_LANES];
     float   s[2 * HC_LANES], span[2 * HC_LANES];
@@ -30,7 +31,7 @@ typedef struct question {
 
 /* What is found out about them. Neither hit nor clear: it could not be told. */
 typedef struct verdict {
-    double  t[HC_LANES];
+    HC_ROW(double) t[HC_LANES];
     float   u[HC_LANES], v[HC_LANES], height[HC_LANES];
     float   s[HC_LANES]; /* clear: up to there */
     int32_t hit[HC_LANES], clear[HC_LANES];
@@ -40,13 +41,15 @@ typedef struct verdict {
 /* Cells on their own: the first root, when and through which side the ray leaves, and when it would
  * leave through the other one. */
 typedef struct test {
-    double  t[HC_LANES], leave[HC_LANES], other[HC_LANES];
+    HC_ROW(double) t[HC_LANES];
+    double  leave[HC_LANES], other[HC_LANES];
     int32_t hit[HC_LANES], open[HC_LANES];
     int32_t across[HC_LANES]; /* leaves along v */
 } test;
 
 typedef struct slab {
-    double enter[HC_LANES], leave[HC_LANES];
+    HC_ROW(double) enter[HC_LANES];
+    double leave[HC_LANES];
 } slab;
 
 /* A ray that runs along the cells enters and leaves at infinity, or never; where it is on their

@@ -15,7 +15,8 @@
 
 /* What a ray brings into a lane; words all. */
 typedef struct runners {
-    float   x[HC_LANES], y[HC_LANES], z[HC_LANES];    /* where the segment starts             */
+    HC_ROW(float) x[HC_LANES];                        /* where the segment starts             */
+    float   y[HC_LANES], z[HC_LANES];                 /* likewise                             */
     float   dx[HC_LANES], dy[HC_LANES], dz[HC_LANES]; /* per s; |dx| + |dy| = 1               */
     float   rx[HC_LANES], ry[HC_LANES];               /* 1 / dx, 1 / dy                       */
     float   end[HC_LANES];                            /* s                                    */
@@ -43,9 +44,10 @@ typedef struct pack {
     /* Whose rays these are: then they keep their lanes until all are done, and where they wait is
      * kept here. NULL: rays of any kind, which are replaced one by one. */
     const group *group;
-    int32_t      cell_x[HC_LANES], cell_y[HC_LANES];
-    float        span[HC_LANES];
-    float        heights[4][HC_LANES]; /* of corners: h00, h10, h01, h11 */
+    HC_ROW(int32_t) cell_x[HC_LANES];
+    int32_t cell_y[HC_LANES];
+    float   span[HC_LANES];
+    float   heights[4][HC_LANES]; /* of corners: h00, h10, h01, h11 */
 } pack;
 
 typedef struct place {
@@ -331,7 +333,8 @@ static const float CLIMB_PLACES[PLACES] = { 0.15F, 0.4F, 0.04F, 0.25F, 0.07F,  0
                                             0.1F,  0.3F, 0.03F, 0.5F,  0.012F, 0.2F };
 
 /* Rays below the lowest heights at one of the places, or below the patches at one of the first:
- * fewer, as these cost more, and only if a few of them find something. */
+ * fewer, as these cost more, and only if a few of them find something. Rays that have been found
+ * are looked at again, so that no place waits for the one before it. */
 static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes, bool low)
 {
     const int      places = low ? PLACES : FEW_PLACES;
@@ -343,8 +346,7 @@ static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsig
     for (int k = 0; k < places && below != lanes && (low || k < COARSE_PLACES || below != 0); k++) {
         const hc_v part = hc_v_pick(climbs, hc_v_set(CLIMB_PLACES[k]), hc_v_set(LEVEL_PLACES[k]));
         const hc_v s    = hc_v_mul(way, part);
-        const hc_v gap  = low ? gap_to_low(fast, ray, s, lanes & ~below)
-                              : gap_after(fast, ray, s, lanes & ~below);
+        const hc_v gap  = low ? gap_to_low(fast, ray, s, lanes) : gap_after(fast, ray, s, lanes);
         below |= hc_v_greater(slack, gap) & lanes;
     }
     return below;
@@ -365,7 +367,7 @@ static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned l
 
 /* What looking at the patches under lanes has shown. */
 typedef struct sight {
-    float    span[HC_LANES]; /* s until the cell is left                                   */
+    HC_ROW(float) span[HC_LANES]; /* s until the cell is left                                   */
     int32_t  cell_x[HC_LANES], cell_y[HC_LANES];
     corners  patch;
     unsigned clear; /* hit nothing on the cell                                     */

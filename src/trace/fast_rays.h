@@ -15,7 +15,8 @@ static const int32_t hc_lane[16] = { 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 1
 static const double FAR_PERIODS = 4.0 * HC_PERIODS_MAX;
 
 typedef struct batch {
-    double origin[3][HC_LANES], direction[3][HC_LANES], inverse[2][HC_LANES];
+    HC_ROW(double) origin[3][HC_LANES];
+    double direction[3][HC_LANES], inverse[2][HC_LANES];
     double run[HC_LANES]; /* cells gone sideways per t                 */
     /* from > to, or `to` is NaN: it cannot hit anything. What cuts a ray stands first in greater()
      * and lesser(), so that this stays as it is. */
@@ -66,19 +67,31 @@ static inline void place_rays(batch *b, const hc_fast *fast, float columns[HC_RO
     }
 }
 
+/* A loop of its own: of one that both chooses and cuts gcc makes branches. */
+static inline void cut(batch *b, const double *enter, const double *leave)
+{
+    for (int i = 0; i < HC_LANES; i++) {
+        b->from[i] = greater(enter[i], b->from[i]);
+        b->to[i]   = lesser(leave[i], b->to[i]);
+    }
+}
+
 /* Cut to the field's ends along an unwrapped axis. A ray along them meets them at infinity, or,
  * where it is on one of them, at NaN, which cuts nothing. */
 static inline void cut_sides(batch *b, int axis, const hc_fast_axis *a)
 {
+    HC_ROW(double) enter[HC_LANES];
+    HC_ROW(double) leave[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
         const double origin  = b->origin[axis][i];
         const double inverse = b->inverse[axis][i];
         const double low     = (a->low - origin) * inverse;
         const double high    = (a->high - origin) * inverse;
         const bool   up      = inverse > 0.0;
-        b->from[i]           = greater(up ? low : high, b->from[i]);
-        b->to[i]             = lesser(up ? high : low, b->to[i]);
+        enter[i]             = up ? low : high;
+        leave[i]             = up ? high : low;
     }
+    cut(b, enter, leave);
 }
 
 /* Cut to HC_PERIODS_MAX periods of a wrapped axis, from where the ray is at most at height 1. */
@@ -95,13 +108,18 @@ static inline void cut_periods(batch *b, int axis, const hc_fast_axis *a)
 /* Cut to the heights below the highest sample. */
 static inline void cut_top(batch *b, double top)
 {
+    HC_ROW(double) enter[HC_LANES];
+    HC_ROW(double) leave[HC_LANES];
     for (int i = 0; i < HC_LANES; i++) {
         const double direction = b->direction[2][i];
-        const double t         = (top - b->origin[2][i]) / direction;
-        b->from[i]             = direction < 0.0 ? greater(t, b->from[i]) : b->from[i];
-        b->to[i]               = direction > 0.0 ? lesser(t, b->to[i]) : b->to[i];
-        b->from[i] = ((direction == 0.0) & (b->origin[2][i] > top)) ? INFINITY : b->from[i];
+        const double origin    = b->origin[2][i];
+        const double t         = (top - origin) / direction;
+        const bool   over      = (direction == 0.0) & (origin > top);
+        const double never     = over ? INFINITY : -INFINITY;
+        enter[i]               = direction < 0.0 ? t : never;
+        leave[i]               = direction > 0.0 ? t : INFINITY;
     }
+    cut(b, enter, leave);
 }
 
 /* `columns`: the rays' words, each in all lanes. */
