@@ -6,6 +6,7 @@
  * hc_spread_words    lanes[i] = from[k] for the k-th set bit i; may read HC_LANES words in any case
  * hc_pack_doubles, hc_spread_doubles  the same of eight bytes
  * hc_rows            the reverse: word k of the eight words at rows[i] from word i of columns[k]
+ * hc_rows_apart      the same, where each row stands so many bytes behind the one before it
  * hc_columns         columns[k][i] = word k of the eight words at base + 32 * rows[i]
  * hc_highest_of      highest[k] of all lanes of rows[k], sixteen rows
  *
@@ -61,14 +62,9 @@ static inline __m512 hc_two_rows(const float *base, int32_t first, int32_t secon
     return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
 }
 
-/* Words k and k + 4 of eight rows, for k = 0 .. 3: rows 0 to 3 in the first and third quarter of a
- * register where they are words k, in the others where they are words k + 4. */
-static inline void hc_turn_rows(__m512 out[4], const float *base, const int32_t *rows)
+/* Quarter by quarter, 4 x 4 transposed. */
+static inline void hc_turn4(__m512 out[4], __m512 a, __m512 b, __m512 c, __m512 d)
 {
-    const __m512 a = hc_two_rows(base, rows[0], rows[4]);
-    const __m512 b = hc_two_rows(base, rows[1], rows[5]);
-    const __m512 c = hc_two_rows(base, rows[2], rows[6]);
-    const __m512 d = hc_two_rows(base, rows[3], rows[7]);
     const __m512 e = _mm512_unpacklo_ps(a, b);
     const __m512 f = _mm512_unpackhi_ps(a, b);
     const __m512 g = _mm512_unpacklo_ps(c, d);
@@ -77,6 +73,14 @@ static inline void hc_turn_rows(__m512 out[4], const float *base, const int32_t 
     out[1]         = _mm512_shuffle_ps(e, g, 0xee);
     out[2]         = _mm512_shuffle_ps(f, h, 0x44);
     out[3]         = _mm512_shuffle_ps(f, h, 0xee);
+}
+
+/* Words k and k + 4 of eight rows, for k = 0 .. 3: rows 0 to 3 in the first and third quarter of a
+ * register where they are words k, in the others where they are words k + 4. */
+static inline void hc_turn_rows(__m512 out[4], const float *base, const int32_t *rows)
+{
+    hc_turn4(out, hc_two_rows(base, rows[0], rows[4]), hc_two_rows(base, rows[1], rows[5]),
+             hc_two_rows(base, rows[2], rows[6]), hc_two_rows(base, rows[3], rows[7]));
 }
 
 static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void *base,
@@ -92,35 +96,47 @@ static inline void hc_columns(float columns[HC_ROW_WORDS][HC_LANES], const void 
     }
 }
 
-/* Eight columns of eight lanes turned into rows: transposed 8 x 8, in registers of two rows. */
-static inline void hc_rows(void *const rows[HC_LANES], const void *const columns[HC_ROW_WORDS])
+/* Rows i and i + 4 of eight columns in pairs[i], 8 + i and 12 + i in pairs[4 + i]. */
+static inline void hc_turn_columns(__m512 pairs[8], const void *const columns[HC_ROW_WORDS])
 {
-    __m512 a[4];
-    __m512 b[4];
+    const __m512i first = _mm512_setr_epi32(0, 1, 2, 3, 16, 17, 18, 19, 4, 5, 6, 7, 20, 21, 22, 23);
+    const __m512i last  = _mm512_or_si512(first, _mm512_set1_epi32(8));
+    __m512        quarters[2][4];
     for (int k = 0; k < 2; k++) { /* words 4 k .. 4 k + 3 of rows i, i + 4, i + 8, i + 12 */
         const __m512 c0 = _mm512_loadu_ps(columns[4 * k]);
         const __m512 c1 = _mm512_loadu_ps(columns[4 * k + 1]);
         const __m512 c2 = _mm512_loadu_ps(columns[4 * k + 2]);
         const __m512 c3 = _mm512_loadu_ps(columns[4 * k + 3]);
-        const __m512 e  = _mm512_unpacklo_ps(c0, c1);
-        const __m512 f  = _mm512_unpackhi_ps(c0, c1);
-        const __m512 g  = _mm512_unpacklo_ps(c2, c3);
-        const __m512 h  = _mm512_unpackhi_ps(c2, c3);
-        __m512      *to = k == 0 ? a : b;
-        to[0]           = _mm512_shuffle_ps(e, g, 0x44);
-        to[1]           = _mm512_shuffle_ps(e, g, 0xee);
-        to[2]           = _mm512_shuffle_ps(f, h, 0x44);
-        to[3]           = _mm512_shuffle_ps(f, h, 0xee);
+        hc_turn4(quarters[k], c0, c1, c2, c3);
     }
     for (int i = 0; i < 4; i++) {
-        _mm_storeu_ps((float *)rows[i], _mm512_castps512_ps128(a[i]));
-        _mm_storeu_ps((float *)rows[i] + 4, _mm512_castps512_ps128(b[i]));
-        _mm_storeu_ps((float *)rows[i + 4], _mm512_extractf32x4_ps(a[i], 1));
-        _mm_storeu_ps((float *)rows[i + 4] + 4, _mm512_extractf32x4_ps(b[i], 1));
-        _mm_storeu_ps((float *)rows[i + 8], _mm512_extractf32x4_ps(a[i], 2));
-        _mm_storeu_ps((float *)rows[i + 8] + 4, _mm512_extractf32x4_ps(b[i], 2));
-        _mm_storeu_ps((float *)rows[i + 12], _mm512_extractf32x4_ps(a[i], 3));
-        _mm_storeu_ps((float *)rows[i + 12] + 4, _mm512_extractf32x4_ps(b[i], 3));
+        pairs[i]     = _mm512_permutex2var_ps(quarters[0][i], first, quarters[1][i]);
+        pairs[4 + i] = _mm512_permutex2var_ps(quarters[0][i], last, quarters[1][i]);
+    }
+}
+
+static inline __m256 hc_row(const __m512 pairs[8], int i)
+{
+    const __m512 pair = pairs[(i & 3) | (i >> 1 & 4)];
+    return (i & 4) == 0 ? _mm512_castps512_ps256(pair)
+                        : _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(pair), 1));
+}
+
+static inline void hc_rows(void *const rows[HC_LANES], const void *const columns[HC_ROW_WORDS])
+{
+    __m512 pairs[8];
+    hc_turn_columns(pairs, columns);
+    for (int i = 0; i < HC_LANES; i++) {
+        _mm256_storeu_ps(rows[i], hc_row(pairs, i));
+    }
+}
+
+static inline void hc_rows_apart(void *first, size_t apart, const void *const columns[HC_ROW_WORDS])
+{
+    __m512 pairs[8];
+    hc_turn_columns(pairs, columns);
+    for (size_t i = 0; i < HC_LANES; i++) {
+        _mm256_storeu_ps((float *)((char *)first + i * apart), hc_row(pairs, (int)i));
     }
 }
 
@@ -283,6 +299,19 @@ static inline void hc_rows(void *const rows[HC_LANES], const void *const columns
             memcpy((float *)rows[i] + k, (const float *)columns[k] + i, sizeof(float));
         }
     }
+}
+
+#endif
+
+#if !defined(HC_SIMD_AVX512)
+
+static inline void hc_rows_apart(void *first, size_t apart, const void *const columns[HC_ROW_WORDS])
+{
+    void *rows[HC_LANES];
+    for (size_t i = 0; i < HC_LANES; i++) {
+        rows[i] = (char *)first + i * apart;
+    }
+    hc_rows(rows, columns);
 }
 
 #endif

@@ -15,6 +15,7 @@
  * hc_v_pick          a where the bit is set, b elsewhere; hc_i_pick likewise
  * hc_i_from_v        towards zero
  * hc_v_gather        the word at base + 4 * index where the bit is set, anything elsewhere
+ * hc_i_first         of the lanes whose bit is set, of which there is one
  * hc_gather_pairs    two words from base + 8 * index where the bit is set, anything elsewhere
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
  *                    if fewer are set; returns how many are; hc_pack_v the lanes of a vector */

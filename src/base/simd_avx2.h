@@ -220,6 +220,13 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
                    _mm256_i32gather_epi32(table, index.b, 4) };
 }
 
+static inline int32_t hc_i_first(hc_i a, unsigned lanes)
+{
+    int32_t all[HC_LANES];
+    hc_i_store(all, a);
+    return all[__builtin_ctz(lanes)];
+}
+
 static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
 {
     const __m256 low  = _mm256_castsi256_ps(hc_i_mask8(lanes));

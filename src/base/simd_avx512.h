@@ -155,6 +155,12 @@ static inline unsigned hc_i_differ(hc_i a, hc_i b)
     return _mm512_cmpneq_epi32_mask(a, b);
 }
 
+static inline int32_t hc_i_first(hc_i a, unsigned lanes)
+{
+    const __m512i dense = _mm512_maskz_compress_epi32((__mmask16)lanes, a);
+    return _mm_cvtsi128_si32(_mm512_castsi512_si128(dense));
+}
+
 /* table[index] of a table of sixteen. */
 static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
 {

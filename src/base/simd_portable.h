@@ -181,6 +181,13 @@ static inline hc_v hc_v_of_bits(hc_i a)
     return r;
 }
 
+static inline int32_t hc_i_first(hc_i a, unsigned lanes)
+{
+    int32_t all[HC_LANES];
+    hc_i_store(all, a);
+    return all[__builtin_ctz(lanes)];
+}
+
 static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
 {
     float found[HC_LANES];

@@ -17,6 +17,8 @@ struct group {
     pack     p;
     float    s[HC_LANES]; /* of the beam, where rays begin */
     unsigned lanes;
+    int      beam;  /* whose rays they are       */
+    bool     begun; /* its rays have left the beam */
 };
 
 typedef struct beams {

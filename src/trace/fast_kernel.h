@@ -25,26 +25,26 @@ static inline void ask_for(const void *items, size_t size, int32_t first)
     }
 }
 
-/* The next group's rays, from where their beam has come to. */
-static pack *load_group(job *j)
+/* A group's rays, from where their beam has come to. */
+static void load_group(job *j, group *g)
 {
-    const int  k     = j->next_group++;
-    group     *g     = j->waiting[k];
+    const int  k     = g->beam;
     pack      *p     = &g->p;
     const hc_v ahead = hc_v_sub(hc_v_set(j->beams.s[k]), hc_v_load(g->s));
     hc_v_store(p->s, hc_v_keep(g->lanes, hc_v_max(ahead, hc_v_set(0.0F))));
     hc_v_store(p->again, hc_v_set(-1.0F));
     hc_i_store(p->level, hc_i_set(j->beams.level[k]));
-    p->active = g->lanes;
-    p->near   = 0;
-    p->held   = 0;
-    p->group  = g;
+    p->active   = g->lanes;
+    p->near     = 0;
+    p->held     = 0;
+    p->together = false;
+    p->group    = g;
+    g->begun    = true;
     memset(p->cell_x, 0, sizeof p->cell_x); /* lanes that do not wait are looked at, too */
     memset(p->cell_y, 0, sizeof p->cell_y);
     memset(p->heights, 0, sizeof p->heights);
     ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0]);
     ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES); /* after these groups */
-    return p;
 }
 
 /* Are there rays that are not in lanes? */
@@ -52,55 +52,6 @@ static inline bool has_more(const job *j)
 {
     return j->next != j->queued || j->taken != j->count || j->next_group != j->group_count
            || j->left_count != 0;
-}
-
-/* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
-static void refill(job *j, int slot, unsigned idle)
-{
-    pack *p = j->packs[slot];
-    if (p->group != NULL) {
-        j->used &= ~(1U << (p->group - j->groups));
-        p              = &j->own[slot];
-        j->packs[slot] = p;
-    }
-    while (idle != 0) {
-        if (j->next == j->queued) {
-            j->next   = 0;
-            j->queued = 0;
-            if (j->left_count > 0) {
-                enqueue_left(j);
-            } else if (j->next_group < j->group_count) {
-                if (p->active == 0) {
-                    j->packs[slot] = load_group(j);
-                }
-                return;
-            } else if (j->taken < j->count) {
-                take_new(j);
-                continue;
-            } else {
-                return;
-            }
-        }
-        unsigned lanes = idle;
-        while (__builtin_popcount(lanes) > j->queued - j->next) {
-            lanes &= ~(1U << (31 - __builtin_clz(lanes)));
-        }
-        for (int k = 0; k < RUNNER_WORDS; k++) {
-            const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
-            hc_spread_words((char *)&p->ray + row, lanes,
-                            (const char *)&j->queue + row + (size_t)j->next * sizeof(int32_t));
-        }
-        hc_spread_doubles(p->from, lanes, j->queue_from + j->next);
-        if (!j->plain) {
-            hc_spread_doubles(p->next, lanes, j->queue_next + j->next);
-        }
-        hc_v_store(p->s, hc_v_pick(lanes, hc_v_set(0.0F), hc_v_load(p->s)));
-        hc_v_store(p->again, hc_v_pick(lanes, hc_v_set(-1.0F), hc_v_load(p->again)));
-        hc_i_store(p->level, hc_i_pick(lanes, hc_i_set(j->fast->first_level), hc_i_load(p->level)));
-        j->next += __builtin_popcount(lanes);
-        p->active |= lanes;
-        idle &= ~lanes;
-    }
 }
 
 static void leave_over(job *j, int32_t which, double t, int32_t steps, int32_t crossings)
@@ -145,9 +96,10 @@ static bool walk_cells(const job *j, const batch *b, int i, const leftover *from
     return hit;
 }
 
-/* The answers to those in question that hit. */
+/* The answers to those in question that hit. Those of a whole group, `in_turn`, stand one behind
+ * the other. */
 static void answer_hits(const job *j, const verdict *v, unsigned hits, const int32_t *which,
-                        const int32_t *steps, const int32_t *crossings)
+                        const int32_t *steps, const int32_t *crossings, bool in_turn)
 {
     static const uint32_t flags[HC_LANES] = { 0 };
     float                 t[HC_LANES];
@@ -155,14 +107,24 @@ static void answer_hits(const job *j, const verdict *v, unsigned hits, const int
     int32_t               y[HC_LANES];
     hc_hit                other; /* of lanes that are not asked for */
     hc_hit               *to[HC_LANES];
-    hc_hit *const         out = j->answer.hits;
+    hc_hit *const         out   = j->answer.hits;
+    hc_hit *const         first = &out[which[0]];
     for (int i = 0; i < HC_LANES; i++) {
-        t[i]  = (float)v->t[i];
-        to[i] = (hits >> i & 1) != 0 ? &out[which[i]] : &other;
+        t[i] = (float)v->t[i];
     }
     hc_i_store(x, hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first)));
     hc_i_store(y, hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first)));
     const void *const columns[HC_ROW_WORDS] = { t, v->u, v->v, v->height, x, y, flags, steps };
+    if (in_turn && hits == ALL_LANES) {
+        hc_rows_apart(first, sizeof *first, columns);
+        for (int i = 0; i < HC_LANES; i++) {
+            first[i].crossings = (uint32_t)crossings[i];
+        }
+        return;
+    }
+    for (int i = 0; i < HC_LANES; i++) {
+        to[i] = (hits >> i & 1) != 0 ? &out[which[i]] : &other;
+    }
     hc_rows((void *const *)to, columns);
     for (int i = 0; i < HC_LANES; i++) {
         to[i]->crossings = (uint32_t)crossings[i];
@@ -170,12 +132,12 @@ static void answer_hits(const job *j, const verdict *v, unsigned hits, const int
 }
 
 static void answer_found(const job *j, const verdict *v, unsigned hits, const int32_t *which,
-                         const int32_t *steps, const int32_t *crossings)
+                         const int32_t *steps, const int32_t *crossings, bool in_turn)
 {
     if (j->answer.any != NULL) {
         answer_any(j, which, hits);
     } else if (hits != 0) {
-        answer_hits(j, v, hits, which, steps, crossings);
+        answer_hits(j, v, hits, which, steps, crossings, in_turn);
     }
 }
 
@@ -250,7 +212,7 @@ static void decide(job *j)
     }
     unsigned       rest = ALL_LANES >> (HC_LANES - count);
     const unsigned hits = find_set(v.hit) & rest;
-    answer_found(j, &v, hits, c->which, c->steps, c->crossings);
+    answer_found(j, &v, hits, c->which, c->steps, c->crossings, false);
     rest &= ~(hits & ~waiting(c)); /* others run on those lanes by now */
     for (; rest != 0; rest &= rest - 1) {
         settle(j, &b, &v, __builtin_ctz(rest));
@@ -290,7 +252,7 @@ static void decide_group(job *j, pack *p)
     decide_cells(j->fast, b, &what, p->held, &v);
     unsigned       hits  = find_set(v.hit) & p->held;
     const unsigned clear = find_set(v.clear) & p->held & ~hits;
-    answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings);
+    answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings, true);
     for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
         const int      i    = __builtin_ctz(rest);
         const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], b->from[i] };
@@ -356,6 +318,126 @@ static void see_near(job *j, pack *p)
         if (j->trials.count >= HC_LANES) {
             decide(j);
         }
+    }
+}
+
+/* ---- groups that stay together --------------------------------------------------------------- */
+
+/* Rays so near to each other, in cells along both axes together, stand on one cell most often. */
+static const float TOGETHER_WIDTH = 0.25F;
+
+/* Cells that they are looked at before they are marched again. */
+enum { TOGETHER_LOOKS = 8 };
+
+static bool stay_together(const beams *b, int k)
+{
+    float width = 0.0F;
+    for (int axis = 0; axis < 2; axis++) {
+        width += b->high[axis][k] - b->low[axis][k]
+                 + b->s[k] * (b->high_rate[axis][k] - b->low_rate[axis][k]);
+    }
+    return b->level[k] == 0 && width < TOGETHER_WIDTH;
+}
+
+/* Cell by cell from where the beam has come to. True if all rays wait to be decided. */
+static bool look_ahead(job *j, group *g)
+{
+    pack      *p   = &g->p;
+    const hc_v end = hc_v_load(p->ray.end);
+    load_group(j, g);
+    p->together = true;
+    p->near     = p->active;
+    hc_v_store(p->until, hc_v_set(INFINITY));
+    for (int k = 0; k < TOGETHER_LOOKS && p->near != 0; k++) {
+        see_near(j, p);
+        p->near &= hc_v_greater(end, hc_v_load(p->s));
+    }
+    p->near = 0;
+    return p->held != 0 && p->held == p->active;
+}
+
+/* Groups that stay together come to their answers here, all of them to where they are decided
+ * first, so that one decision need not wait for the other. The others, and those that go on, are
+ * left for lanes. */
+static void finish_groups(job *j)
+{
+    group *ready[HC_LANES];
+    int    ready_count = 0;
+    int    left        = 0;
+    if (j->fast->towers.listed) {
+        return;
+    }
+    for (int k = 0; k < j->group_count; k++) {
+        group *g = j->waiting[k];
+        if (stay_together(&j->beams, g->beam) && look_ahead(j, g)) {
+            ready[ready_count++] = g;
+        } else {
+            j->waiting[left++] = g;
+        }
+    }
+    for (int k = 0; k < ready_count; k++) {
+        group *g = ready[k];
+        decide_group(j, &g->p);
+        if (g->p.active == 0) {
+            j->used &= ~(1U << (g - j->groups));
+        } else {
+            j->waiting[left++] = g;
+        }
+    }
+    j->group_count = left;
+}
+
+/* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
+static void refill(job *j, int slot, unsigned idle)
+{
+    pack *p = j->packs[slot];
+    if (p->group != NULL) {
+        j->used &= ~(1U << (p->group - j->groups));
+        p              = &j->own[slot];
+        j->packs[slot] = p;
+    }
+    while (idle != 0) {
+        if (j->next == j->queued) {
+            j->next   = 0;
+            j->queued = 0;
+            if (j->left_count > 0) {
+                enqueue_left(j);
+            } else if (j->next_group < j->group_count) {
+                if (p->active == 0) {
+                    group *g = j->waiting[j->next_group++];
+                    if (!g->begun) {
+                        load_group(j, g);
+                    }
+                    j->packs[slot] = &g->p;
+                }
+                return;
+            } else if (j->taken < j->count) {
+                take_new(j);
+                finish_groups(j);
+                continue;
+            } else {
+                return;
+            }
+        }
+        unsigned lanes = idle;
+        while (__builtin_popcount(lanes) > j->queued - j->next) {
+            lanes &= ~(1U << (31 - __builtin_clz(lanes)));
+        }
+        for (int k = 0; k < RUNNER_WORDS; k++) {
+            const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
+            hc_spread_words((char *)&p->ray + row, lanes,
+                            (const char *)&j->queue + row + (size_t)j->next * sizeof(int32_t));
+        }
+        hc_spread_doubles(p->from, lanes, j->queue_from + j->next);
+        if (!j->plain) {
+            hc_spread_doubles(p->next, lanes, j->queue_next + j->next);
+        }
+        hc_v_store(p->s, hc_v_pick(lanes, hc_v_set(0.0F), hc_v_load(p->s)));
+        hc_v_store(p->again, hc_v_pick(lanes, hc_v_set(-1.0F), hc_v_load(p->again)));
+        hc_i_store(p->level, hc_i_pick(lanes, hc_i_set(j->fast->first_level), hc_i_load(p->level)));
+        j->next += __builtin_popcount(lanes);
+        p->active |= lanes;
+        idle &= ~lanes;
     }
 }
 

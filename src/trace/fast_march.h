@@ -37,9 +37,10 @@ typedef struct pack {
     float    until[HC_LANES]; /* s at which a near lane leaves its block */
     float    again[HC_LANES]; /* s from which on a lane may glide        */
     int32_t  level[HC_LANES];
-    unsigned active; /* lanes with a ray                        */
-    unsigned near;   /* of them: waiting on a cell to be looked at */
-    unsigned held;   /* of them: waiting to be decided          */
+    unsigned active;   /* lanes with a ray                        */
+    unsigned near;     /* of them: waiting on a cell to be looked at */
+    unsigned held;     /* of them: waiting to be decided          */
+    bool     together; /* most often they all stand on one cell   */
 
     /* Whose rays these are: then they keep their lanes until all are done, and where they wait is
      * kept here. NULL: rays of any kind, which are replaced one by one. */
@@ -107,6 +108,28 @@ typedef struct standing {
     hc_i  top, codes;
 } standing;
 
+/* The index that lanes have in common, or -1. */
+static inline int32_t common_index(hc_i index, unsigned lanes)
+{
+    const int32_t first = hc_i_first(index, lanes);
+    return (hc_i_differ(index, hc_i_set(first)) & lanes) == 0 ? first : -1;
+}
+
+/* Read once for all lanes where these stand on one block, which is sooner done than gathered. */
+static inline void read_blocks(standing *on, const hc_fast_block *blocks, hc_i index,
+                               unsigned lanes, bool together)
+{
+    const int32_t one = together ? common_index(index, lanes) : -1;
+    if (one < 0) {
+        hc_gather_pairs(&on->top, &on->codes, blocks, index, lanes);
+        return;
+    }
+    int32_t codes;
+    memcpy(&codes, blocks[one].slopes, sizeof codes);
+    on->top   = hc_v_bits(hc_v_set(blocks[one].top));
+    on->codes = hc_i_set(codes);
+}
+
 static inline standing find_blocks(const hc_fast *fast, const pack *p, unsigned active)
 {
     standing on;
@@ -118,7 +141,7 @@ static inline standing find_blocks(const hc_fast *fast, const pack *p, unsigned 
     const hc_i row   = hc_i_lookup(fast->stride, on.level);
     const hc_i start = hc_i_lookup(fast->start, on.level);
     const hc_i index = index_of(on.block_x, on.block_y, row, HC_FAST_BLOCK_BITS);
-    hc_gather_pairs(&on.top, &on.codes, fast->blocks, hc_i_add(index, start), active);
+    read_blocks(&on, fast->blocks, hc_i_add(index, start), active, p->together);
     return on;
 }
 
@@ -270,12 +293,20 @@ typedef struct corners {
     hc_v h00, h10, h01, h11;
 } corners;
 
-static inline corners find_corners(const hc_fast *fast, hc_i x, hc_i y, unsigned lanes)
+/* Of cells of their own, or, `together`, most often of one. */
+static inline corners find_corners(const hc_fast *fast, hc_i x, hc_i y, unsigned lanes,
+                                   bool together)
 {
-    const hc_i   stride = hc_i_set(fast->stride_heights);
-    const hc_i   upper  = index_of(x, y, stride, HC_FAST_HEIGHT_BITS);
-    const hc_i   lower  = index_of(x, hc_i_add(y, hc_i_set(1)), stride, HC_FAST_HEIGHT_BITS);
-    const float *right  = fast->heights + (1 << HC_FAST_HEIGHT_BITS);
+    const hc_i    stride = hc_i_set(fast->stride_heights);
+    const hc_i    upper  = index_of(x, y, stride, HC_FAST_HEIGHT_BITS);
+    const hc_i    lower  = index_of(x, hc_i_add(y, hc_i_set(1)), stride, HC_FAST_HEIGHT_BITS);
+    const float  *right  = fast->heights + (1 << HC_FAST_HEIGHT_BITS);
+    const int32_t one    = together ? common_index(upper, lanes) : -1;
+    if (one >= 0) {
+        const int32_t below = hc_i_first(lower, lanes);
+        return (corners){ hc_v_set(fast->heights[one]), hc_v_set(right[one]),
+                          hc_v_set(fast->heights[below]), hc_v_set(right[below]) };
+    }
     return (corners){ hc_v_gather(fast->heights, upper, lanes), hc_v_gather(right, upper, lanes),
                       hc_v_gather(fast->heights, lower, lanes), hc_v_gather(right, lower, lanes) };
 }
@@ -307,7 +338,7 @@ static inline spot find_spot(const hc_fast *fast, const runners *ray, hc_v s)
 static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
 {
     const spot    at = find_spot(fast, ray, s);
-    const corners h  = find_corners(fast, at.i, at.j, lanes);
+    const corners h  = find_corners(fast, at.i, at.j, lanes, false);
     const hc_v    u  = hc_v_sub(at.x, hc_v_from_i(at.i));
     const hc_v    v  = hc_v_sub(at.y, hc_v_from_i(at.j));
     return gap_at(&h, u, v, at.z);
@@ -433,7 +464,7 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
         return;
     }
     const unsigned outside = hc_i_differ(x_in, at.cell_x) | hc_i_differ(y_in, at.cell_y);
-    const corners  h       = find_corners(fast, x_in, y_in, lanes);
+    const corners  h       = find_corners(fast, x_in, y_in, lanes, p->together);
     const hc_v     x       = hc_v_sub(at.x, hc_v_from_i(x_in));
     const hc_v     y       = hc_v_sub(at.y, hc_v_from_i(y_in));
     const hc_v     run_x   = hc_v_mul(out, hc_v_load(p->ray.dx));

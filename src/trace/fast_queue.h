@@ -309,6 +309,8 @@ static bool join_group(job *j, group *g)
     }
     clear_lanes(&g->p.ray, g->lanes);
     j->used |= 1U << (g - j->groups);
+    g->beam                      = j->group_count;
+    g->begun                     = false;
     j->waiting[j->group_count++] = g;
     return true;
 }
