@@ -14,7 +14,8 @@
  *   height + slope * distance + lean_u * unit_u + lean_v * unit_v
  * of one of them. */
 typedef struct lines {
-    float height[HC_TILE_PARTS * HC_LANES], slope[HC_TILE_PARTS * HC_LANES];
+    _Alignas(64) float height[HC_TILE_PARTS * HC_LANES];
+    float slope[HC_TILE_PARTS * HC_LANES];
     float lean_u[HC_TILE_PARTS * HC_LANES], lean_v[HC_TILE_PARTS * HC_LANES];
     float least_slope; /* of the samples that something can limit */
 } lines;

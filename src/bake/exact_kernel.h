@@ -69,7 +69,8 @@ INLINE unsigned sure_lanes(kind k, const tile *t, hc_v across, hc_v down, float 
 
 /* Middles of nodes, as seen from the tile's, and their highest samples. */
 typedef struct node_places {
-    float across[HC_LIST_ROOM], down[HC_LIST_ROOM], top[HC_LIST_ROOM];
+    _Alignas(64) float across[HC_LIST_ROOM];
+    float down[HC_LIST_ROOM], top[HC_LIST_ROOM];
 } node_places;
 
 /* A node's highest sample is no farther away than its farthest corner: its steepness there is a

@@ -50,28 +50,29 @@ typedef struct hc_exact_pass {
 #define HC_LIST_ROOM (HC_LIST + 32) /* one more node's children, and what packing them writes */
 
 typedef struct hc_node_list {
-    int     count;
-    int32_t place[HC_LIST_ROOM];
-    float   top[HC_LIST_ROOM]; /* highest sample below the node, minus base */
+    _Alignas(64) int32_t place[HC_LIST_ROOM];
+    float top[HC_LIST_ROOM]; /* highest sample below the node, minus base */
+    int   count;
 } hc_node_list;
 
 /* Some nodes of a list, by their numbers. */
 typedef struct hc_choice {
-    int     count;
-    int32_t number[HC_LIST_ROOM];
+    _Alignas(64) int32_t number[HC_LIST_ROOM];
+    int count;
 } hc_choice;
 
 /* For every node of a list a plane over its entries that they must rise above to matter:
  * start + rise_u * column + rise_v * row. */
 typedef struct hc_planes {
-    float start[HC_LIST_ROOM], rise_u[HC_LIST_ROOM], rise_v[HC_LIST_ROOM];
+    _Alignas(64) float start[HC_LIST_ROOM];
+    float rise_u[HC_LIST_ROOM], rise_v[HC_LIST_ROOM];
 } hc_planes;
 
 /* Samples near one part, and where their weights begin in the table. */
 typedef struct hc_near_samples {
-    int     count;
-    int32_t weights[16 * HC_LIST + 32];
-    float   heights[16 * HC_LIST + 32];
+    _Alignas(64) int32_t weights[16 * HC_LIST + 32];
+    float heights[16 * HC_LIST + 32];
+    int   count;
 } hc_near_samples;
 
 _Static_assert((2 * HC_NEAR_REACH / 4 + 1) * (2 * HC_NEAR_REACH / 4 + 1) <= HC_LIST,
@@ -88,7 +89,8 @@ typedef struct hc_around {
 /* Distant samples that limited cones a moment ago: first guesses for the next tile, which its
  * result does not depend on. */
 typedef struct hc_recent {
-    float    x[HC_RECENT], y[HC_RECENT], height[HC_RECENT];
+    _Alignas(64) float x[HC_RECENT];
+    float    y[HC_RECENT], height[HC_RECENT];
     unsigned next;
     unsigned useful; /* bit i: number i raised thresholds of the last tile */
 } hc_recent;
