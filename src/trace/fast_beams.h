@@ -176,14 +176,15 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
     return all;
 }
 
-/* One step, or one level up or down, of the beams in `active`. Returns those that go on. */
-static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active, unsigned *sinking,
-                                  ground kind)
+/* One step, or one level up or down, of the beams in `active`, which stand *at s on *level. Returns
+ * those that go on. */
+static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at, hc_i *level_on,
+                                  unsigned active, unsigned *sinking, ground kind)
 {
-    const hc_v     s     = hc_v_load(b->s);
+    const hc_v     s     = *at;
     const hc_v     z     = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
     const hc_v     down  = hc_v_sub(hc_v_set(0.0F), hc_v_load(b->dz));
-    const hc_i     level = hc_i_load(b->level);
+    const hc_i     level = *level_on;
     const hc_i     shift = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
     const footing  x     = find_footing(b, 0, s, shift, fast->x.cells);
     const footing  y     = find_footing(b, 1, s, shift, fast->y.cells);
@@ -201,7 +202,7 @@ static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active
     const hc_v part      = hc_v_about_over(hc_v_sub(z, c.top), descent);
     const hc_v step      = hc_v_pick(clear, hc_v_add(out, beyond), part);
     const hc_v ahead     = hc_v_pick(above, hc_v_add(s, step), s);
-    hc_v_store(b->s, ahead);
+    *at                  = ahead;
 
     const unsigned rises   = clear | (wide & active & ~*sinking);
     const unsigned falls   = fits & ~clear;
@@ -210,9 +211,9 @@ static inline unsigned step_beams(const hc_fast *fast, beams *b, unsigned active
     const unsigned ceiling = ~hc_i_differ(level, last);
     const hc_i     up      = hc_i_pick(rises, hc_i_add(level, hc_i_set(1)), level);
     const hc_i     next    = hc_i_pick(falls & ~bottom, hc_i_add(level, hc_i_set(-1)), up);
-    hc_i_store(b->level, hc_i_min(next, last));
-    const unsigned stops = (wide & (*sinking | ceiling)) | (falls & bottom);
-    *sinking             = falls;
+    *level_on              = hc_i_min(next, last);
+    const unsigned stops   = (wide & (*sinking | ceiling)) | (falls & bottom);
+    *sinking               = falls;
     return active & ~stops & hc_v_greater(hc_v_load(b->end), ahead);
 }
 
@@ -222,9 +223,13 @@ static inline void march_beams(const hc_fast *fast, beams *b, int count, ground 
     enum { FEW = 1, ROUNDS = 40 };
     unsigned active  = (1U << count) - 1;
     unsigned sinking = 0;
+    hc_v     s       = hc_v_load(b->s); /* not in memory between steps */
+    hc_i     level   = hc_i_load(b->level);
     for (int i = 0; i < ROUNDS && __builtin_popcount(active) > (count > FEW ? FEW : 0); i++) {
-        active = step_beams(fast, b, active, &sinking, kind);
+        active = step_beams(fast, b, &s, &level, active, &sinking, kind);
     }
+    hc_v_store(b->s, s);
+    hc_i_store(b->level, level);
 }
 
 #endif

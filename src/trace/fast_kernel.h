@@ -15,16 +15,6 @@ static const pace single = { .near = 1, .done = 1, .rounds = 4, .few_rounds = 4 
 
 /* ---- lanes in and out ------------------------------------------------------------------------ */
 
-/* Ask for sixteen items before they are needed. There may be fewer: what lies behind them is
- * fetched in vain. */
-static inline void ask_for(const void *items, size_t size, int32_t first)
-{
-    const uintptr_t start = (uintptr_t)items + (size_t)first * size;
-    for (size_t i = 0; i < HC_LANES * size; i += 64) {
-        __builtin_prefetch((const void *)(start + i));
-    }
-}
-
 /* A group's rays, from where their beam has come to. */
 static void load_group(job *j, group *g)
 {
@@ -321,55 +311,97 @@ static void see_near(job *j, pack *p)
     }
 }
 
-/* ---- groups that stay together --------------------------------------------------------------- */
+/* Lanes that have just begun, or have come past what stopped them. What stops them now stands in
+ * the cell that they have come to. */
+static inline void glide_on(job *j, pack *p)
+{
+    const hc_v     s     = hc_v_load(p->s);
+    const hc_v     again = hc_v_load(p->again);
+    const unsigned off   = hc_v_greater(s, again) & p->active & ~p->held & ~p->near;
+    if (off == 0) {
+        return;
+    }
+    const landing l    = glide(j->fast, &p->ray, p->s, off);
+    const hc_v    past = hc_v_add(l.s, hc_v_set(GLIDE_AFTER));
+    const hc_v    next = hc_v_pick(l.above, past, hc_v_set(INFINITY));
+    hc_v_store(p->s, l.s);
+    hc_v_store(p->again, hc_v_pick(off, next, again));
+    hc_v_store(p->until, hc_v_pick(l.above, l.s, hc_v_load(p->until)));
+    p->near |= l.above;
+}
+
+/* ---- groups ---------------------------------------------------------------------------------- */
 
 /* Rays so near to each other, in cells along both axes together, stand on one cell most often. */
 static const float TOGETHER_WIDTH = 0.25F;
 
-/* Cells that they are looked at before they are marched again. */
-enum { TOGETHER_LOOKS = 8 };
+/* Cells that they are looked at before they are marched again; towers that they glide to. */
+enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2 };
 
-static bool stay_together(const beams *b, int k)
+/* Of a beam's rays, `ahead` of it. */
+static bool are_close(const beams *b, int k, float ahead)
 {
     float width = 0.0F;
     for (int axis = 0; axis < 2; axis++) {
         width += b->high[axis][k] - b->low[axis][k]
-                 + b->s[k] * (b->high_rate[axis][k] - b->low_rate[axis][k]);
+                 + (b->s[k] + ahead) * (b->high_rate[axis][k] - b->low_rate[axis][k]);
     }
-    return b->level[k] == 0 && width < TOGETHER_WIDTH;
+    return width < TOGETHER_WIDTH;
 }
 
-/* Cell by cell from where the beam has come to. True if all rays wait to be decided. */
-static bool look_ahead(job *j, group *g)
+/* Look at the cells of those that are near, before their end. */
+static void look_before_end(job *j, pack *p)
 {
-    pack      *p   = &g->p;
-    const hc_v end = hc_v_load(p->ray.end);
-    load_group(j, g);
+    p->near &= hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
+    if (p->near != 0) {
+        see_near(j, p);
+    }
+}
+
+/* From where the beam has come to, cell by cell. */
+static void look_along(job *j, group *g)
+{
+    pack *p     = &g->p;
     p->together = true;
     p->near     = p->active;
     hc_v_store(p->until, hc_v_set(INFINITY));
     for (int k = 0; k < TOGETHER_LOOKS && p->near != 0; k++) {
-        see_near(j, p);
-        p->near &= hc_v_greater(end, hc_v_load(p->s));
+        look_before_end(j, p);
     }
     p->near = 0;
-    return p->held != 0 && p->held == p->active;
 }
 
-/* Groups that stay together come to their answers here, all of them to where they are decided
- * first, so that one decision need not wait for the other. The others, and those that go on, are
- * left for lanes. */
-static void finish_groups(job *j)
+/* From tower to tower. */
+static void glide_along(job *j, group *g)
 {
-    group *ready[HC_LANES];
-    int    ready_count = 0;
-    int    left        = 0;
-    if (j->fast->towers.listed) {
-        return;
+    pack *p = &g->p;
+    for (int k = 0; k < TOGETHER_TOWERS && p->active != p->held; k++) {
+        glide_on(j, p);
+        p->together = are_close(&j->beams, g->beam, p->s[__builtin_ctz(p->active)]);
+        look_before_end(j, p);
     }
+}
+
+/* Groups that stay together, or glide, come to their answers here, all of them to where they are
+ * decided first, so that one decision need not wait for the other. The others, and those that go
+ * on, are left for lanes. */
+static APART void finish_groups(job *j)
+{
+    group     *ready[HC_LANES];
+    int        ready_count = 0;
+    int        left        = 0;
+    const bool towers      = j->fast->towers.listed;
     for (int k = 0; k < j->group_count; k++) {
-        group *g = j->waiting[k];
-        if (stay_together(&j->beams, g->beam) && look_ahead(j, g)) {
+        group    *g    = j->waiting[k];
+        const int beam = g->beam;
+        if (towers) {
+            load_group(j, g);
+            glide_along(j, g);
+        } else if (j->beams.level[beam] == 0 && are_close(&j->beams, beam, 0.0F)) {
+            load_group(j, g);
+            look_along(j, g);
+        }
+        if (g->begun && g->p.held != 0 && g->p.held == g->p.active) {
             ready[ready_count++] = g;
         } else {
             j->waiting[left++] = g;
@@ -388,7 +420,7 @@ static void finish_groups(job *j)
 }
 
 /* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
-static void refill(job *j, int slot, unsigned idle)
+static APART void refill(job *j, int slot, unsigned idle)
 {
     pack *p = j->packs[slot];
     if (p->group != NULL) {
@@ -442,25 +474,6 @@ static void refill(job *j, int slot, unsigned idle)
 }
 
 /* ---- all together ---------------------------------------------------------------------------- */
-
-/* Lanes that have just begun, or have come past what stopped them. What stops them now stands in
- * the cell that they have come to. */
-static inline void glide_on(job *j, pack *p)
-{
-    const hc_v     s     = hc_v_load(p->s);
-    const hc_v     again = hc_v_load(p->again);
-    const unsigned off   = hc_v_greater(s, again) & p->active & ~p->held & ~p->near;
-    if (off == 0) {
-        return;
-    }
-    const landing l    = glide(j->fast, &p->ray, p->s, off);
-    const hc_v    past = hc_v_add(l.s, hc_v_set(GLIDE_AFTER));
-    const hc_v    next = hc_v_pick(l.above, past, hc_v_set(INFINITY));
-    hc_v_store(p->s, l.s);
-    hc_v_store(p->again, hc_v_pick(off, next, again));
-    hc_v_store(p->until, hc_v_pick(l.above, l.s, hc_v_load(p->until)));
-    p->near |= l.above;
-}
 
 static inline void see_to(job *j, int slot)
 {

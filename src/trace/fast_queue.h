@@ -11,6 +11,10 @@
 
 #include <math.h>
 
+/* What is done once for many steps: within the loop over the packs it would take registers from
+ * these. */
+#define APART __attribute__((noinline))
+
 /* Packs take turns, so that one computes while the others wait for memory. */
 enum {
     ALL_LANES = (1 << HC_LANES) - 1,
@@ -365,8 +369,18 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     }
 }
 
+/* Ask for sixteen items before they are needed. There may be fewer: what lies behind them is
+ * fetched in vain. */
+static inline void ask_for(const void *items, size_t size, int32_t first)
+{
+    const uintptr_t start = (uintptr_t)items + (size_t)first * size;
+    for (size_t i = 0; i < HC_LANES * size; i += 64) {
+        __builtin_prefetch((const void *)(start + i));
+    }
+}
+
 /* The next rays: groups, as long as they are beams, or a queue. */
-static void take_new(job *j)
+static APART void take_new(job *j)
 {
     j->group_count = 0;
     j->next_group  = 0;
@@ -377,6 +391,9 @@ static void take_new(job *j)
         const int      count = left < HC_LANES ? left : HC_LANES;
         const unsigned all   = ALL_LANES >> (HC_LANES - count);
         hc_i_store(which, hc_i_add(hc_i_set(j->taken), hc_i_load(hc_lane)));
+        if (j->answer.any != NULL) {
+            ask_for(j->rays, sizeof *j->rays, j->taken + 2 * HC_LANES);
+        }
         prepare_next(&g->b, j->fast, j->rays + j->taken, count);
         j->taken += count;
         if (j->plain) {
