@@ -103,7 +103,7 @@ typedef struct sums {
 /* Rays that are beams at first hit, bit for bit, what each hits on its own. */
 static void compare_tiles(sums *steps, const char *kind, const hc_field *field, uint64_t *random)
 {
-    enum { TILES = 40 }; /* more than are beams at one time */
+    enum { TILES = 40, COUNT_MAX = 4096 }; /* more tiles than are beams at one time */
     static hc_ray rays[16 * TILES];
     static hc_hit hits[16 * TILES];
     hc_tracer    *tracer;
@@ -112,6 +112,7 @@ static void compare_tiles(sums *steps, const char *kind, const hc_field *field, 
         const hc_ray like = agree_ray(field, (agree_rays)(i % RAYS_SETS), random);
         make_tile(rays + 16 * (size_t)i, &like, random);
     }
+    memset(hits, 0xff, sizeof hits);
     hc_trace_nearest_many(tracer, hits, rays, 16 * TILES);
     for (int i = 0; i < 16 * TILES; i++) {
         hc_hit alone;
@@ -121,6 +122,8 @@ static void compare_tiles(sums *steps, const char *kind, const hc_field *field, 
                      agree_describe(kind, field), agree_rays_name((agree_rays)(i / 16 % RAYS_SETS)),
                      (double)alone.t, (double)hits[i].t);
         }
+        assert_in_range(hits[i].steps, 0, COUNT_MAX);
+        assert_in_range(hits[i].crossings, 0, COUNT_MAX);
         if (i / 16 % RAYS_SETS == RAYS_CAMERA) {
             steps->among += hits[i].steps;
             steps->alone += alone.steps;
