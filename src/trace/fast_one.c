@@ -100,6 +100,7 @@ static bool cast_single(const hc_fast *fast, const hc_ray *ray, bool any, hc_hit
     turn_batch(&p.ray, fast, &b);
     p.s[0]     = 0.0F;
     p.again[0] = -1.0F;
+    p.together = false;
     p.level[0] = fast->first_level;
     bool hits  = false;
     if (find_marched(&p.ray) == 0) {
