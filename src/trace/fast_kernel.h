@@ -358,7 +358,7 @@ static void look_before_end(job *j, pack *p)
     }
 }
 
-/* From where the beam has come to, cell by cell. */
+/* From where the beam has come to, cell by cell; each counts as a step, in place of its block. */
 static void look_along(job *j, group *g)
 {
     pack *p     = &g->p;
@@ -366,6 +366,8 @@ static void look_along(job *j, group *g)
     p->near     = p->active;
     hc_v_store(p->until, hc_v_set(INFINITY));
     for (int k = 0; k < TOGETHER_LOOKS && p->near != 0; k++) {
+        const hc_i steps = hc_i_load(p->ray.steps);
+        hc_i_store(p->ray.steps, hc_i_pick(p->near, hc_i_add(steps, hc_i_set(1)), steps));
         look_before_end(j, p);
     }
     p->near = 0;
