@@ -332,21 +332,23 @@ static inline void glide_on(job *j, pack *p)
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-/* Rays so near to each other, in cells along both axes together, stand on one cell most often. */
-static const float TOGETHER_WIDTH = 0.25F;
+/* How wide the box of a beam may be, in cells along both axes together: its rays most often stand on
+ * one cell; they are looked at before they are marched. */
+static const float TOGETHER_WIDTH  = 0.25F;
+static const float LOOKED_AT_WIDTH = 4.0F;
 
 /* Cells that they are looked at before they are marched again; towers that they glide to. */
 enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2 };
 
-/* Of a beam's rays, `ahead` of it. */
-static bool are_close(const beams *b, int k, float ahead)
+/* Of a beam's box, `ahead` of it. */
+static float width_of(const beams *b, int k, float ahead)
 {
     float width = 0.0F;
     for (int axis = 0; axis < 2; axis++) {
         width += b->high[axis][k] - b->low[axis][k]
                  + (b->s[k] + ahead) * (b->high_rate[axis][k] - b->low_rate[axis][k]);
     }
-    return width < TOGETHER_WIDTH;
+    return width;
 }
 
 /* Look at the cells of those that are near, before their end. */
@@ -359,10 +361,10 @@ static void look_before_end(job *j, pack *p)
 }
 
 /* From where the beam has come to, cell by cell; each counts as a step, in place of its block. */
-static void look_along(job *j, group *g)
+static void look_along(job *j, group *g, float width)
 {
     pack *p     = &g->p;
-    p->together = true;
+    p->together = width < TOGETHER_WIDTH;
     p->near     = p->active;
     hc_v_store(p->until, hc_v_set(INFINITY));
     for (int k = 0; k < TOGETHER_LOOKS && p->near != 0; k++) {
@@ -379,7 +381,8 @@ static void glide_along(job *j, group *g)
     pack *p = &g->p;
     for (int k = 0; k < TOGETHER_TOWERS && p->active != p->held; k++) {
         glide_on(j, p);
-        p->together = are_close(&j->beams, g->beam, p->s[__builtin_ctz(p->active)]);
+        const float s = p->s[__builtin_ctz(p->active)];
+        p->together   = width_of(&j->beams, g->beam, s) < TOGETHER_WIDTH;
         look_before_end(j, p);
     }
 }
@@ -394,14 +397,14 @@ static APART void finish_groups(job *j)
     int        left        = 0;
     const bool towers      = j->fast->towers.listed;
     for (int k = 0; k < j->group_count; k++) {
-        group    *g    = j->waiting[k];
-        const int beam = g->beam;
+        group      *g     = j->waiting[k];
+        const float width = width_of(&j->beams, g->beam, 0.0F);
         if (towers) {
             load_group(j, g);
             glide_along(j, g);
-        } else if (j->beams.level[beam] == 0 && are_close(&j->beams, beam, 0.0F)) {
+        } else if (j->beams.level[g->beam] == 0 && width < LOOKED_AT_WIDTH) {
             load_group(j, g);
-            look_along(j, g);
+            look_along(j, g, width);
         }
         if (g->begun && g->p.held != 0 && g->p.held == g->p.active) {
             ready[ready_count++] = g;
