@@ -227,7 +227,7 @@ static inline int32_t hc_i_first(hc_i a, unsigned lanes)
     return all[__builtin_ctz(lanes)];
 }
 
-static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
 {
     const __m256 low  = _mm256_castsi256_ps(hc_i_mask8(lanes));
     const __m256 high = _mm256_castsi256_ps(hc_i_mask8(lanes >> 8));

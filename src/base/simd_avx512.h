@@ -171,7 +171,7 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"
 
-static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
 {
     return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), (__mmask16)lanes, index, base, 4);
 }

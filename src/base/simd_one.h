@@ -52,8 +52,15 @@ HC_ONE(hc_i, hc_i_from_v, (hc_v a), _mm_cvttss_si32(_mm_set_ss(a)))
 HC_ONE(hc_i, hc_i_from_v, (hc_v a), fabsf(a) < 0x1p31F ? (int32_t)a : INT32_MIN)
 #endif
 HC_ONE(hc_v, hc_v_from_i, (hc_i a), (float)a)
-HC_ONE(hc_v, hc_v_gather, (const float *base, hc_i index, unsigned lanes),
-       (lanes & 1) != 0 ? base[index] : 0.0F)
+
+static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
+{
+    float found = 0.0F;
+    if ((lanes & 1) != 0) {
+        memcpy(&found, (const char *)base + 4 * (ptrdiff_t)index, sizeof found);
+    }
+    return found;
+}
 
 static inline void hc_v_store(float *p, hc_v a)
 {

@@ -188,11 +188,13 @@ static inline int32_t hc_i_first(hc_i a, unsigned lanes)
     return all[__builtin_ctz(lanes)];
 }
 
-static inline hc_v hc_v_gather(const float *base, hc_i index, unsigned lanes)
+static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
 {
-    float found[HC_LANES];
+    float found[HC_LANES] = { 0.0F };
     for (int i = 0; i < HC_LANES; i++) {
-        found[i] = (lanes >> i & 1) != 0 ? base[index.lane[i]] : 0.0F;
+        if ((lanes >> i & 1) != 0) {
+            memcpy(&found[i], (const char *)base + 4 * (ptrdiff_t)index.lane[i], sizeof found[i]);
+        }
     }
     return hc_v_load(found);
 }

@@ -72,21 +72,21 @@ static size_t rows_of(int rows, int bits)
     return (size_t)((rows + (1 << bits) - 1) >> bits) << bits;
 }
 
-/* Squares of how many cells have their lowest heights kept. Returns their number. */
+/* Squares of how many cells have their lowest heights kept. Returns the words that these take. */
 static size_t plan_lows(hc_fast *fast)
 {
-    enum { FEW_CELLS = 1 << 19, MOST = 520 * 520 };
-    size_t count = 0;
-    if (!hc_fast_plain(fast) || fast->x.cells < FEW_CELLS / fast->y.cells) {
+    enum { MOST = 520 * 260 };
+    size_t words = MOST + 1;
+    if (!hc_fast_plain(fast)) {
         return 0;
     }
-    do {
+    for (fast->low_bits = -1; words > MOST;) {
         fast->low_bits++;
-        fast->stride_lows = (fast->x.cells >> fast->low_bits) + 1;
+        fast->stride_lows = (fast->x.cells >> (fast->low_bits + 1)) + 1;
         fast->rows_lows   = (fast->y.cells >> fast->low_bits) + 1;
-        count             = (size_t)fast->stride_lows * (size_t)fast->rows_lows;
-    } while (count > MOST);
-    return count;
+        words             = (size_t)fast->stride_lows * (size_t)fast->rows_lows;
+    }
+    return words;
 }
 
 /* Everything but the memory. */
@@ -125,7 +125,7 @@ static float highest_of(const hc_field *field)
 /* The lowest heights stand behind all others. */
 static size_t height_bytes(const layout *sizes)
 {
-    return (sizes->heights + sizes->lows) * sizeof(float);
+    return sizes->heights * sizeof(float) + sizes->lows * sizeof(uint32_t);
 }
 
 /* Towers stand behind the blocks, where the last page has room for most of them. */
@@ -156,7 +156,7 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     made->heights      = hc_take_memory(height_bytes(&sizes));
     made->blocks       = hc_take_memory(block_bytes(&sizes));
     if (made->heights != NULL) {
-        made->lows = made->heights + sizes.heights;
+        made->lows = (uint32_t *)(made->heights + sizes.heights);
     }
     if (made->blocks != NULL) {
         hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));

@@ -78,24 +78,31 @@ static void copy_heights(void *context, int y, int worker)
     b->steepest[y] = largest;
 }
 
+/* The lowest height of square x of a row, in steps of 2^-16, rounded down; any where the field has
+ * ended. */
+static uint32_t find_low(const hc_fast *fast, int x, int y)
+{
+    const int side   = 1 << fast->low_bits;
+    const int right  = lesser((x + 1) * side, fast->x.cells);
+    const int below  = lesser((y + 1) * side, fast->y.cells);
+    float     lowest = 1.0F;
+    for (int j = y * side; j <= below; j++) {
+        for (int i = x * side; i <= right; i++) {
+            const float height = fast->heights[hc_fast_corner(fast, i, j)];
+            lowest             = height < lowest ? height : lowest;
+        }
+    }
+    return lowest < 1.0F ? (uint32_t)(lowest * 0x1p16F) : 0xffff;
+}
+
 static void find_lows(void *context, int y, int worker)
 {
     const builder *b    = context;
     const hc_fast *fast = b->fast;
-    const int      side = 1 << fast->low_bits;
-    const int      last = lesser((y + 1) * side, fast->y.cells);
-    float         *to   = fast->lows + (size_t)y * (size_t)fast->stride_lows;
+    uint32_t      *to   = fast->lows + (size_t)y * (size_t)fast->stride_lows;
     (void)worker;
-    for (int x = 0; x < fast->stride_lows; x++) {
-        const int end    = lesser((x + 1) * side, fast->x.cells);
-        float     lowest = INFINITY;
-        for (int j = y * side; j <= last; j++) {
-            for (int i = x * side; i <= end; i++) {
-                const float height = fast->heights[hc_fast_corner(fast, i, j)];
-                lowest             = height < lowest ? height : lowest;
-            }
-        }
-        to[x] = lowest;
+    for (int k = 0; k < fast->stride_lows; k++) {
+        to[k] = find_low(fast, 2 * k, y) | find_low(fast, 2 * k + 1, y) << 16;
     }
 }
 
@@ -106,10 +113,10 @@ static bool is_rough(const hc_fast *fast)
     double    rise = 0.0;
     for (int y = 0; y < fast->rows_lows; y++) {
         const int j = lesser(y * side + side / 2, fast->y.cells);
-        for (int x = 0; x < fast->stride_lows; x++) {
-            const int   i   = lesser(x * side + side / 2, fast->x.cells);
-            const float low = fast->lows[(size_t)y * (size_t)fast->stride_lows + (size_t)x];
-            rise += (double)(fast->heights[hc_fast_corner(fast, i, j)] - low);
+        for (int k = 0; k < fast->stride_lows; k++) {
+            const int      i   = lesser(2 * k * side + side / 2, fast->x.cells);
+            const uint32_t low = fast->lows[(size_t)y * (size_t)fast->stride_lows + (size_t)k];
+            rise += (double)fast->heights[hc_fast_corner(fast, i, j)] - 0x1p-16 * (low & 0xffff);
         }
     }
     return rise > 0.25 * fast->highest * (double)fast->rows_lows * (double)fast->stride_lows;
@@ -559,9 +566,8 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     const float steepest = steepest_of(b);
     fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
     fast->slack          = 6.0F * fast->blur * steepest + fast->least;
-    if (fast->low_bits > 0) {
+    if (fast->stride_lows > 0) {
         (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
-        fast->low_bits = is_rough(fast) ? 0 : fast->low_bits;
     }
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     top_levels(b, threads, log);
@@ -569,6 +575,9 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     (void)run(b, 0, block_row, b->levels[0].height, threads, log);
     b->sparse    = is_sparse(b);
     fast->sparse = b->sparse;
+    if (b->sparse || (fast->stride_lows > 0 && is_rough(fast))) {
+        fast->stride_lows = 0;
+    }
     if (b->sparse && !see_edges(b, threads, log)) {
         return false;
     }

@@ -75,12 +75,12 @@ struct hc_fast {
     int    stride_heights;
     float *heights;
 
-    /* The lowest heights of squares of 2^low_bits cells a side, row by row, few enough for the
-     * second-level cache: rays that ask for any hit are looked at there first. low_bits is 0 and
-     * there are none on small fields, on rough ground, where they say little, and where rays have
-     * other things to see to (hc_fast_plain). */
-    int    low_bits, stride_lows, rows_lows;
-    float *lows;
+    /* The lowest heights of squares of 2^low_bits cells a side, in steps of 2^-16 and two in a word,
+     * row by row, few enough for the second-level cache: rays that ask for any hit are looked at
+     * there first. stride_lows, in words, is 0 and there are none on sparse and on rough ground,
+     * where they say little, and where rays have other things to see to (hc_fast_plain). */
+    int       low_bits, stride_lows, rows_lows;
+    uint32_t *lows;
 
     /* All levels, the finest first: hc_fast_block_at. Each has one more block at the ends of its
      * rows, and one more row: rays at an edge may be put beyond it. */

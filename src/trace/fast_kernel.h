@@ -40,7 +40,7 @@ static void load_group(job *j, group *g)
 /* Are there rays that are not in lanes? */
 static inline bool has_more(const job *j)
 {
-    return j->next != j->queued || j->taken != j->count || j->next_group != j->group_count
+    return j->next != j->queued || has_new(j) || j->next_group != j->group_count
            || j->left_count != 0;
 }
 
@@ -448,7 +448,7 @@ static APART void refill(job *j, int slot, unsigned idle)
                     j->packs[slot] = &g->p;
                 }
                 return;
-            } else if (j->taken < j->count) {
+            } else if (has_new(j)) {
                 take_new(j);
                 finish_groups(j);
                 continue;
@@ -550,14 +550,16 @@ static inline unsigned busy_lanes(const job *j)
 /* Idle lanes are computed too. */
 static void start(job *j)
 {
-    j->taken        = 0;
-    j->queued       = 0;
-    j->next         = 0;
-    j->left_count   = 0;
-    j->trials.count = 0;
-    j->group_count  = 0;
-    j->next_group   = 0;
-    j->used         = 0;
+    j->taken          = 0;
+    j->queued         = 0;
+    j->next           = 0;
+    j->left_count     = 0;
+    j->trials.count   = 0;
+    j->group_count    = 0;
+    j->next_group     = 0;
+    j->used           = 0;
+    j->suspects.count = 0;
+    memset(j->suspects.words, 0, sizeof j->suspects.words);
     for (int k = 0; k < PACKS; k++) {
         j->packs[k] = &j->own[k];
         memset(j->packs[k], 0, sizeof *j->packs[k]);

@@ -347,34 +347,40 @@ static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, un
 /* How far above the lowest height around them rays are at s, but for what fast->slack allows. */
 static inline hc_v gap_to_low(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
 {
-    const spot at   = find_spot(fast, ray, s);
-    const hc_i bits = hc_i_set(fast->low_bits);
-    const hc_i low =
-        index_of(hc_i_right(at.i, bits), hc_i_right(at.j, bits), hc_i_set(fast->stride_lows), 0);
-    return hc_v_sub(at.z, hc_v_gather(fast->lows, low, lanes));
+    const spot at     = find_spot(fast, ray, s);
+    const hc_i bits   = hc_i_set(fast->low_bits);
+    const hc_i i      = hc_i_right(at.i, bits);
+    const hc_i column = hc_i_right(i, hc_i_set(1));
+    const hc_i index  = index_of(column, hc_i_right(at.j, bits), hc_i_set(fast->stride_lows), 0);
+    const hc_i half   = hc_i_left(hc_i_and(i, hc_i_set(1)), hc_i_set(4));
+    const hc_i words  = hc_v_bits(hc_v_gather(fast->lows, index, lanes));
+    const hc_i low    = hc_i_and(hc_i_right(words, half), hc_i_set(0xffff));
+    return hc_v_about_muladd(hc_v_from_i(low), hc_v_set(-0x1p-16F), at.z);
 }
 
 /* Where rays that ask for any hit are looked at, as shares of their way: those from ground to
  * ground, and those that climb a quarter of the field's height, as to the sun, which are hidden by
  * what is near. Each place is the one that finds most of what the places before it leave. */
-enum { PLACES = 13, FEW_PLACES = 7, COARSE_PLACES = 3 };
-static const float LEVEL_PLACES[PLACES] = { 0.22F, 0.78F, 0.04F, 0.96F, 0.5F,  0.36F, 0.64F,
-                                            0.12F, 0.88F, 0.3F,  0.7F,  0.43F, 0.57F };
-static const float CLIMB_PLACES[PLACES] = { 0.15F, 0.4F, 0.04F, 0.25F, 0.07F,  0.02F, 0.6F,
-                                            0.1F,  0.3F, 0.03F, 0.5F,  0.012F, 0.2F };
+enum { PLACES = 20 };
+static const float LEVEL_PLACES[PLACES] = { 0.836F, 0.164F, 0.492F, 0.039F, 0.961F, 0.664F, 0.305F,
+                                            0.914F, 0.086F, 0.398F, 0.023F, 0.773F, 0.977F, 0.57F,
+                                            0.227F, 0.008F, 0.992F, 0.945F, 0.117F, 0.727F };
+static const float CLIMB_PLACES[PLACES] = { 0.068F, 0.248F, 0.024F, 0.452F, 0.148F, 0.011F, 0.695F,
+                                            0.35F,  0.041F, 0.192F, 0.105F, 0.586F, 0.9F,   0.017F,
+                                            0.294F, 0.053F, 0.381F, 0.007F, 0.032F, 0.537F };
 
-/* Rays below the lowest heights at one of the places, or below the patches at one of the first:
- * fewer, as these cost more, and only if a few of them find something. Rays that have been found
- * are looked at again, so that no place waits for the one before it. */
-static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes, bool low)
+/* Rays below the lowest heights, or below the patches, at one of the places from `first` on, before
+ * `end`. Rays that have been found are looked at again, so that no place waits for the one before
+ * it. */
+static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsigned lanes,
+                                  int first, int end, bool low)
 {
-    const int      places = low ? PLACES : FEW_PLACES;
     const hc_v     slack  = hc_v_set(-fast->slack);
     const hc_v     way    = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
     const hc_v     rise   = hc_v_mul(way, hc_v_load(ray->dz));
     const unsigned climbs = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
     unsigned       below  = 0;
-    for (int k = 0; k < places && below != lanes && (low || k < COARSE_PLACES || below != 0); k++) {
+    for (int k = first; k < end && below != lanes; k++) {
         const hc_v part = hc_v_pick(climbs, hc_v_set(CLIMB_PLACES[k]), hc_v_set(LEVEL_PLACES[k]));
         const hc_v s    = hc_v_mul(way, part);
         const hc_v gap  = low ? gap_to_low(fast, ray, s, lanes) : gap_after(fast, ray, s, lanes);
@@ -383,17 +389,27 @@ static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsig
     return below;
 }
 
+static inline unsigned probe_lows(const hc_fast *fast, const runners *ray, unsigned lanes,
+                                  int first, int end)
+{
+    return find_below(fast, ray, lanes, first, end, true);
+}
+
+/* Fewer places, as these cost more, and only if a few of them find something. */
 static __attribute__((noinline)) unsigned probe_patches(const hc_fast *fast, const runners *ray,
                                                         unsigned lanes)
 {
-    return find_below(fast, ray, lanes, false);
+    enum { COARSE = 3, FEW = 7 };
+    const unsigned below = find_below(fast, ray, lanes, 0, COARSE, false);
+    return below != 0 ? below | find_below(fast, ray, lanes & ~below, COARSE, FEW, false) : 0;
 }
 
 /* Rays that are certainly below the surface somewhere on their way, and so have hit it. */
 static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
 {
-    return fast->low_bits > 0 ? find_below(fast, ray, lanes, true)
-                              : probe_patches(fast, ray, lanes);
+    return fast->stride_lows > 0 ? probe_lows(fast, ray, lanes, 0, PLACES)
+           : fast->sparse        ? 0
+                                 : probe_patches(fast, ray, lanes);
 }
 
 /* What looking at the patches under lanes has shown. */

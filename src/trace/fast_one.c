@@ -105,7 +105,7 @@ static bool cast_single(const hc_fast *fast, const hc_ray *ray, bool any, hc_hit
     bool hits  = false;
     if (find_marched(&p.ray) == 0) {
         hits = hc_fast_walk(fast, &r, &found, r.from, r.to);
-    } else if (any && !fast->sparse && probe(fast, &p.ray, 1) != 0) {
+    } else if (any && probe(fast, &p.ray, 1) != 0) {
         return true;
     } else {
         hits = fast->sparse ? march_single(fast, &p, &r, any, &found, GROUND_SPARSE)

@@ -39,6 +39,16 @@ typedef struct pace {
     int near, done, rounds, few_rounds;
 } pace;
 
+/* Rays that ask for any hit and have been looked at in the first places, until sixteen of them are
+ * looked at in the others. Rows as of runners, twice as long: sixteen may join. */
+typedef struct suspects {
+    HC_ROW(int32_t) words[RUNNER_WORDS][2 * HC_LANES];
+    double from[2 * HC_LANES + HC_LANES];
+    int    count;
+} suspects;
+
+enum { FIRST_PLACES = 5 };
+
 typedef struct job {
     const hc_fast *fast;
     pace           pace;
@@ -49,6 +59,7 @@ typedef struct job {
     runners        queue; /* rays ready for lanes */
     double         queue_from[2 * HC_LANES], queue_next[2 * HC_LANES];
     int            queued, next;
+    suspects       suspects;
     trials         trials;
     leftover       left[LEFT_MAX];
     int            left_count;
@@ -269,15 +280,21 @@ static unsigned find_marched(const runners *q)
     return hc_v_greater(hc_v_load(q->end), hc_v_set(MARCH_FROM));
 }
 
-/* A group's rays, for any lanes. */
-static void enqueue_group(job *j, const group *g)
+/* The words of sixteen rays into rows so many bytes apart. */
+static inline void pack_rays(void *to, size_t pitch, const runners *rays, unsigned lanes)
 {
-    for (int k = 0; k < RUNNER_WORDS; k++) {
-        const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
-        hc_pack_words((char *)&j->queue + row, g->lanes, (const char *)&g->p.ray + row);
+    for (size_t k = 0; k < RUNNER_WORDS; k++) {
+        const char *row = (const char *)rays + k * HC_LANES * sizeof(int32_t);
+        hc_pack_words((char *)to + k * pitch, lanes, row);
     }
-    hc_pack_doubles(j->queue_from, g->lanes, g->b.from);
-    j->queued = __builtin_popcount(g->lanes);
+}
+
+/* Rays that start at `from`, for any lanes. */
+static void enqueue_rays(job *j, const runners *rays, const double *from, unsigned lanes)
+{
+    pack_rays(&j->queue, HC_LANES * sizeof(int32_t), rays, lanes);
+    hc_pack_doubles(j->queue_from, lanes, from);
+    j->queued = __builtin_popcount(lanes);
 }
 
 /* Lanes that are not marched become 0, so that what is computed there is bounded. */
@@ -319,6 +336,44 @@ static bool join_group(job *j, group *g)
     return true;
 }
 
+/* The first sixteen suspects, or all: those that no place finds are to be marched. */
+static void search_suspects(job *j)
+{
+    suspects      *s     = &j->suspects;
+    const int      count = s->count < HC_LANES ? s->count : HC_LANES;
+    const unsigned all   = ALL_LANES >> (HC_LANES - count);
+    runners        rays;
+    for (int k = 0; k < RUNNER_WORDS; k++) {
+        hc_i_store((int32_t *)&rays + k * HC_LANES, hc_i_load(s->words[k]));
+        hc_i_store(s->words[k], hc_i_load(s->words[k] + HC_LANES));
+    }
+    const unsigned below = probe_lows(j->fast, &rays, all, FIRST_PLACES, PLACES);
+    answer_any(j, rays.which, below);
+    enqueue_rays(j, &rays, s->from, all & ~below);
+    memcpy(s->from, s->from + HC_LANES, HC_LANES * sizeof *s->from);
+    s->count -= count;
+}
+
+/* Rays that ask for any hit. Where the first places find none of sixteen, as under the open sky, the
+ * others are left out. */
+static void suspect(job *j, const runners *rays, const double *from, unsigned lanes)
+{
+    suspects      *s     = &j->suspects;
+    const unsigned below = probe_lows(j->fast, rays, lanes, 0, FIRST_PLACES);
+    const unsigned rest  = lanes & ~below;
+    answer_any(j, rays->which, below);
+    if (below == 0) {
+        enqueue_rays(j, rays, from, rest);
+        return;
+    }
+    pack_rays(s->words[0] + s->count, sizeof s->words[0], rays, rest);
+    hc_pack_doubles(s->from + s->count, rest, from);
+    s->count += __builtin_popcount(rest);
+    if (s->count >= HC_LANES) {
+        search_suspects(j);
+    }
+}
+
 /* Of rays that ask for any hit those that end in the air, or are below the tower that stops them
  * where they come past its middle. */
 static unsigned ask_towers(job *j, const runners *ray, unsigned lanes)
@@ -340,29 +395,33 @@ static unsigned ask_towers(job *j, const runners *ray, unsigned lanes)
     return below | (lanes & ~on);
 }
 
-/* Rays that ask for any hit and have their answer at once. */
-static unsigned answer_at_once(job *j, const runners *ray, unsigned lanes)
+/* Rays that ask for any hit, of which many have their answer at once. Those that are left are too
+ * different to stay together. */
+static void take_any(job *j, const runners *rays, const double *from, unsigned lanes)
 {
     if (j->fast->towers.listed) {
-        return ask_towers(j, ray, lanes);
+        enqueue_rays(j, rays, from, lanes & ~ask_towers(j, rays, lanes));
+    } else if (j->fast->stride_lows > 0) {
+        suspect(j, rays, from, lanes);
+    } else {
+        const unsigned below = j->fast->sparse ? 0 : probe_patches(j->fast, rays, lanes);
+        answer_any(j, rays->which, below);
+        enqueue_rays(j, rays, from, lanes & ~below);
     }
-    const unsigned sure = j->fast->sparse ? 0 : probe(j->fast, ray, lanes);
-    answer_any(j, ray->which, sure);
-    return sure;
 }
 
-/* A batch: the rays that are to be marched, others are answered. Of rays that ask for any hit those
- * that are left are too different to stay together. */
+/* A batch: the rays that are to be marched, others are answered. */
 static void take_group(job *j, group *g, const int32_t *which, unsigned all)
 {
-    const batch *b   = &g->b;
-    const bool   any = j->answer.any != NULL;
+    const batch *b = &g->b;
     turn_batch(&g->p.ray, j->fast, b);
     memcpy(g->p.ray.which, which, sizeof g->p.ray.which);
     const unsigned marched = find_marched(&g->p.ray) & all;
-    g->lanes               = marched & ~(any ? answer_at_once(j, &g->p.ray, marched) : 0);
-    if (g->lanes != 0 && (any || !join_group(j, g))) {
-        enqueue_group(j, g);
+    g->lanes               = marched;
+    if (j->answer.any != NULL) {
+        take_any(j, &g->p.ray, b->from, marched);
+    } else if (!join_group(j, g)) {
+        enqueue_rays(j, &g->p.ray, b->from, marched);
     }
     if (marched != all) {
         enqueue_one_by_one(j, b, which, all & ~marched);
@@ -377,6 +436,12 @@ static inline void ask_for(const void *items, size_t size, int32_t first)
     for (size_t i = 0; i < HC_LANES * size; i += 64) {
         __builtin_prefetch((const void *)(start + i));
     }
+}
+
+/* Are there rays that have not been in the queue? */
+static inline bool has_new(const job *j)
+{
+    return j->taken != j->count || j->suspects.count != 0;
 }
 
 /* The next rays: groups, as long as they are beams, or a queue. */
@@ -401,6 +466,9 @@ static APART void take_new(job *j)
         } else {
             enqueue_one_by_one(j, &g->b, which, all);
         }
+    }
+    if (j->queued == 0 && j->suspects.count > 0) {
+        search_suspects(j);
     }
     if (j->group_count > 0 && !j->fast->towers.listed) {
         march_beams(j->fast, &j->beams, j->group_count,
