@@ -337,8 +337,9 @@ static inline void glide_on(job *j, pack *p)
 static const float TOGETHER_WIDTH  = 0.25F;
 static const float LOOKED_AT_WIDTH = 4.0F;
 
-/* Cells that they are looked at before they are marched again; towers that they glide to. */
-enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2 };
+/* Cells that they are looked at before they are marched again; towers that they glide to; groups that
+ * are looked at in turns. */
+enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2, ABREAST = 2 };
 
 /* Of a beam's box, `ahead` of it. */
 static float width_of(const beams *b, int k, float ahead)
@@ -360,25 +361,57 @@ static void look_before_end(job *j, pack *p)
     }
 }
 
-/* From where the beam has come to, cell by cell; each counts as a step, in place of its block. */
-static void look_along(job *j, group *g, float width)
+/* Cell by cell, in turns, so that one group computes while the other waits; each counts as a step, in
+ * place of its block. */
+static void look_along(job *j, group *const *some, int count)
 {
-    pack *p     = &g->p;
-    p->together = width < TOGETHER_WIDTH;
-    p->near     = p->active;
-    hc_v_store(p->until, hc_v_set(INFINITY));
-    for (int k = 0; k < TOGETHER_LOOKS && p->near != 0; k++) {
-        const hc_i steps = hc_i_load(p->ray.steps);
-        hc_i_store(p->ray.steps, hc_i_pick(p->near, hc_i_add(steps, hc_i_set(1)), steps));
-        look_before_end(j, p);
+    bool more = true;
+    for (int k = 0; k < TOGETHER_LOOKS && more; k++) {
+        more = false;
+        for (int i = 0; i < count; i++) {
+            pack *p = &some[i]->p;
+            if (p->near != 0) {
+                const hc_i steps = hc_i_load(p->ray.steps);
+                hc_i_store(p->ray.steps, hc_i_pick(p->near, hc_i_add(steps, hc_i_set(1)), steps));
+                look_before_end(j, p);
+                more |= p->near != 0;
+            }
+        }
     }
-    p->near = 0;
+    for (int i = 0; i < count; i++) {
+        some[i]->p.near = 0;
+    }
+}
+
+/* Of the groups those that are narrow and have come down to cells, from where their beam has come
+ * to. */
+static void look_at_groups(job *j)
+{
+    group *some[ABREAST];
+    int    count = 0;
+    for (int k = 0; k < j->group_count; k++) {
+        group      *g     = j->waiting[k];
+        pack       *p     = &g->p;
+        const float width = width_of(&j->beams, g->beam, 0.0F);
+        if (j->beams.level[g->beam] == 0 && width < LOOKED_AT_WIDTH) {
+            load_group(j, g);
+            p->together = width < TOGETHER_WIDTH;
+            p->near     = p->active;
+            hc_v_store(p->until, hc_v_set(INFINITY));
+            some[count++] = g;
+        }
+        if (count == ABREAST || k == j->group_count - 1) {
+            look_along(j, some, count);
+            count = 0;
+        }
+    }
 }
 
 /* From tower to tower. */
 static void glide_along(job *j, group *g)
 {
     pack *p = &g->p;
+    load_group(j, g);
     for (int k = 0; k < TOGETHER_TOWERS && p->active != p->held; k++) {
         glide_on(j, p);
         const float s = p->s[__builtin_ctz(p->active)];
@@ -392,20 +425,18 @@ static void glide_along(job *j, group *g)
  * on, are left for lanes. */
 static APART void finish_groups(job *j)
 {
-    group     *ready[HC_LANES];
-    int        ready_count = 0;
-    int        left        = 0;
-    const bool towers      = j->fast->towers.listed;
-    for (int k = 0; k < j->group_count; k++) {
-        group      *g     = j->waiting[k];
-        const float width = width_of(&j->beams, g->beam, 0.0F);
-        if (towers) {
-            load_group(j, g);
-            glide_along(j, g);
-        } else if (j->beams.level[g->beam] == 0 && width < LOOKED_AT_WIDTH) {
-            load_group(j, g);
-            look_along(j, g, width);
+    group *ready[HC_LANES];
+    int    ready_count = 0;
+    int    left        = 0;
+    if (j->fast->towers.listed) {
+        for (int k = 0; k < j->group_count; k++) {
+            glide_along(j, j->waiting[k]);
         }
+    } else {
+        look_at_groups(j);
+    }
+    for (int k = 0; k < j->group_count; k++) {
+        group *g = j->waiting[k];
         if (g->begun && g->p.held != 0 && g->p.held == g->p.active) {
             ready[ready_count++] = g;
         } else {
