@@ -33,8 +33,6 @@ static void load_group(job *j, group *g)
     memset(p->cell_x, 0, sizeof p->cell_x); /* lanes that do not wait are looked at, too */
     memset(p->cell_y, 0, sizeof p->cell_y);
     memset(p->heights, 0, sizeof p->heights);
-    ask_for(j->answer.hits, sizeof(hc_hit), p->ray.which[0]);
-    ask_for(j->rays, sizeof(hc_ray), j->taken + k * HC_LANES); /* after these groups */
 }
 
 /* Are there rays that are not in lanes? */

@@ -428,13 +428,20 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     }
 }
 
-/* Ask for sixteen items before they are needed. There may be fewer: what lies behind them is
- * fetched in vain. */
-static inline void ask_for(const void *items, size_t size, int32_t first)
+/* Rays are asked for so many times sixteen before they are needed. */
+enum { AHEAD = 4 };
+
+/* Ask for sixteen items; those that are needed `once` leave the second-level cache to the tables.
+ * There may be fewer: what lies behind them is fetched in vain. */
+static inline void ask_for(const void *items, size_t size, int32_t first, bool once)
 {
     const uintptr_t start = (uintptr_t)items + (size_t)first * size;
     for (size_t i = 0; i < HC_LANES * size; i += 64) {
-        __builtin_prefetch((const void *)(start + i));
+        if (once) {
+            __builtin_prefetch((const void *)(start + i), 0, 0);
+        } else {
+            __builtin_prefetch((const void *)(start + i));
+        }
     }
 }
 
@@ -456,8 +463,9 @@ static APART void take_new(job *j)
         const int      count = left < HC_LANES ? left : HC_LANES;
         const unsigned all   = ALL_LANES >> (HC_LANES - count);
         hc_i_store(which, hc_i_add(hc_i_set(j->taken), hc_i_load(hc_lane)));
-        if (j->answer.any != NULL) {
-            ask_for(j->rays, sizeof *j->rays, j->taken + 2 * HC_LANES);
+        ask_for(j->rays, sizeof *j->rays, j->taken + AHEAD * HC_LANES, true);
+        if (j->answer.hits != NULL) {
+            ask_for(j->answer.hits, sizeof *j->answer.hits, j->taken, false);
         }
         prepare_next(&g->b, j->fast, j->rays + j->taken, count);
         j->taken += count;
