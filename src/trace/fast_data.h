@@ -75,9 +75,9 @@ struct hc_fast {
     int    stride_heights;
     float *heights;
 
-    /* The lowest heights of squares of 2^low_bits cells a side, in steps of 2^-16 and two in a word,
-     * row by row, few enough for the second-level cache: rays that ask for any hit are looked at
-     * there first. stride_lows, in words, is 0 and there are none on sparse and on rough ground,
+    /* The lowest heights of squares of 2^low_bits cells a side, in steps of 2^-16 and two in a
+     * word, row by row, few enough for the second-level cache: rays that ask for any hit are looked
+     * at there first. stride_lows, in words, is 0 and there are none on sparse and on rough ground,
      * where they say little, and where rays have other things to see to (hc_fast_plain). */
     int       low_bits, stride_lows, rows_lows;
     uint32_t *lows;

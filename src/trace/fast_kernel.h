@@ -330,13 +330,13 @@ static inline void glide_on(job *j, pack *p)
 
 /* ---- groups ---------------------------------------------------------------------------------- */
 
-/* How wide the box of a beam may be, in cells along both axes together: its rays most often stand on
- * one cell; they are looked at before they are marched. */
+/* How wide the box of a beam may be, in cells along both axes together: its rays most often stand
+ * on one cell; they are looked at before they are marched. */
 static const float TOGETHER_WIDTH  = 0.25F;
 static const float LOOKED_AT_WIDTH = 4.0F;
 
-/* Cells that they are looked at before they are marched again; towers that they glide to; groups that
- * are looked at in turns. */
+/* Cells that they are looked at before they are marched again; towers that they glide to; groups
+ * that are looked at in turns. */
 enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2, ABREAST = 2 };
 
 /* Of a beam's box, `ahead` of it. */
@@ -359,8 +359,8 @@ static void look_before_end(job *j, pack *p)
     }
 }
 
-/* Cell by cell, in turns, so that one group computes while the other waits; each counts as a step, in
- * place of its block. */
+/* Cell by cell, in turns, so that one group computes while the other waits; each counts as a step,
+ * in place of its block. */
 static void look_along(job *j, group *const *some, int count)
 {
     bool more = true;

@@ -354,8 +354,8 @@ static void search_suspects(job *j)
     s->count -= count;
 }
 
-/* Rays that ask for any hit. Where the first places find none of sixteen, as under the open sky, the
- * others are left out. */
+/* Rays that ask for any hit. Where the first places find none of sixteen, as under the open sky,
+ * the others are left out. */
 static void suspect(job *j, const runners *rays, const double *from, unsigned lanes)
 {
     suspects      *s     = &j->suspects;
