@@ -463,6 +463,19 @@ static inline unsigned stay_above(hc_v enter, hc_v leave, hc_v sag, hc_v slack)
     return ends & (~hangs | shallow);
 }
 
+/* By how much a lane has to be below its patch where it leaves the cell, to be below the surface
+ * for certain. It is seen up to 2 `blur` behind the wall, where the ground may fall away: it has to
+ * be below at the wall. The slack of other than sparse ground holds for the next cell, too. */
+static inline hc_v depth_of(const hc_fast *fast, const pack *p, hc_v slack)
+{
+    if (!fast->sparse) {
+        return slack;
+    }
+    const hc_v none = hc_v_set(0.0F);
+    const hc_v fall = hc_v_max(hc_v_sub(none, hc_v_load(p->ray.dz)), none);
+    return hc_v_about_muladd(fall, hc_v_set(3.0F * fast->blur), slack);
+}
+
 /* Lanes on single cells: which may hit their patch? */
 static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sight *seen)
 {
@@ -494,7 +507,8 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const hc_v     slack   = slack_at(fast, p, &at, out, &h, lanes);
     seen->patch            = h;
     seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
-    seen->below            = hc_v_greater(hc_v_sub(hc_v_set(0.0F), slack), leave)
+    const hc_v depth       = depth_of(fast, p, slack);
+    seen->below            = hc_v_greater(hc_v_sub(hc_v_set(0.0F), depth), leave)
                   & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;
 }
 

@@ -465,6 +465,41 @@ static void what_is_no_ray_misses(void **state)
     hc_tracer_destroy(tracer);
 }
 
+/* On sparse ground, past the edge of a plateau by a hair, and out of the field before they come
+ * down: whoever sees them behind the edge sees them below the plateau. */
+static void rays_past_an_edge_hit_nothing(void **state)
+{
+    enum { WIDE = 32, RAYS = 64 };
+    static float heights[WIDE * WIDE];
+    hc_field     field = { .heights = heights, .width = WIDE, .height = WIDE };
+    hc_ray       rays[RAYS];
+    uint8_t      any[RAYS];
+    (void)state;
+    for (int y = 10; y <= 20; y++) {
+        heights[y * WIDE + 26] = 0.9F;
+        heights[y * WIDE + 27] = 0.9F;
+        heights[y * WIDE + 28] = 0.9F;
+    }
+    heights[5 * WIDE + 5] = 1.0F;
+    for (int i = 0; i < RAYS; i++) { /* level with the edge at column 28, and 10^-7 higher each */
+        const double over = 1e-7 * (i + 1);
+        rays[i]           = (hc_ray){ .origin    = { 27.1F / WIDE, (float)((14.5 + 0.07 * i) / WIDE),
+                                                     (float)(0.9 + 0.25 * 1.4 + over) },
+                                      .direction = { 1.0F / WIDE, 0.0F, -0.25F },
+                                      .tmax      = INFINITY };
+    }
+    hc_tracer *tracer = make(&field, &(hc_trace_options){ .method = HC_TRACE_FAST });
+    hc_trace_any_many(tracer, any, rays, RAYS);
+    for (int i = 0; i < RAYS; i++) {
+        hc_hit     hit;
+        const bool found = hc_trace_nearest(tracer, &hit, &rays[i]);
+        assert_int_equal(any[i], found);
+        assert_int_equal(hc_trace_any(tracer, &rays[i]), found);
+        assert_false(found && i >= 10); /* floats of heights are 10^-7 apart */
+    }
+    hc_tracer_destroy(tracer);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -485,6 +520,7 @@ int main(void)
         cmocka_unit_test(batches_are_the_same_for_all_threads),
         cmocka_unit_test(reference_batches_are_the_reference),
         cmocka_unit_test(what_is_no_ray_misses),
+        cmocka_unit_test(rays_past_an_edge_hit_nothing),
     };
     fill_fields();
     return cmocka_run_group_tests(tests, NULL, NULL);
