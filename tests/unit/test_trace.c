@@ -482,11 +482,11 @@ static void rays_past_an_edge_hit_nothing(void **state)
     }
     heights[5 * WIDE + 5] = 1.0F;
     for (int i = 0; i < RAYS; i++) { /* level with the edge at column 28, and 10^-7 higher each */
-        const double over = 1e-7 * (i + 1);
-        rays[i]           = (hc_ray){ .origin    = { 27.1F / WIDE, (float)((14.5 + 0.07 * i) / WIDE),
-                                                     (float)(0.9 + 0.25 * 1.4 + over) },
-                                      .direction = { 1.0F / WIDE, 0.0F, -0.25F },
-                                      .tmax      = INFINITY };
+        const float row  = (float)(14.5 + 0.07 * i);
+        const float high = (float)(0.9 + 0.25 * 1.4 + 1e-7 * (i + 1));
+        rays[i]          = (hc_ray){ .origin    = { 27.1F / WIDE, row / WIDE, high },
+                                     .direction = { 1.0F / WIDE, 0.0F, -0.25F },
+                                     .tmax      = INFINITY };
     }
     hc_tracer *tracer = make(&field, &(hc_trace_options){ .method = HC_TRACE_FAST });
     hc_trace_any_many(tracer, any, rays, RAYS);
