@@ -76,16 +76,17 @@ static size_t rows_of(int rows, int bits)
 static size_t plan_lows(hc_fast *fast)
 {
     enum { MOST = 520 * 260 };
-    size_t words = MOST + 1;
+    size_t words;
     if (!hc_fast_plain(fast)) {
         return 0;
     }
-    for (fast->low_bits = -1; words > MOST;) {
+    fast->low_bits = -1;
+    do {
         fast->low_bits++;
         fast->stride_lows = (fast->x.cells >> (fast->low_bits + 1)) + 1;
         fast->rows_lows   = (fast->y.cells >> fast->low_bits) + 1;
         words             = (size_t)fast->stride_lows * (size_t)fast->rows_lows;
-    }
+    } while (words > MOST);
     return words;
 }
 

@@ -560,24 +560,31 @@ static bool see_edges(builder *b, int threads, hc_log *log)
     return true;
 }
 
+/* Lowest heights where they are of use. */
+static void keep_lows(builder *b, hc_fast *fast, int threads, hc_log *log)
+{
+    if (b->sparse) {
+        fast->stride_lows = 0;
+    }
+    if (fast->stride_lows > 0) {
+        (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
+        fast->stride_lows = is_rough(fast) ? 0 : fast->stride_lows;
+    }
+}
+
 static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
 {
     (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
     const float steepest = steepest_of(b);
     fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
     fast->slack          = 6.0F * fast->blur * steepest + fast->least;
-    if (fast->stride_lows > 0) {
-        (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
-    }
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     top_levels(b, threads, log);
     see_far(b, threads, log);
     (void)run(b, 0, block_row, b->levels[0].height, threads, log);
     b->sparse    = is_sparse(b);
     fast->sparse = b->sparse;
-    if (b->sparse || (fast->stride_lows > 0 && is_rough(fast))) {
-        fast->stride_lows = 0;
-    }
+    keep_lows(b, fast, threads, log);
     if (b->sparse && !see_edges(b, threads, log)) {
         return false;
     }

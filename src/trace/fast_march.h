@@ -395,11 +395,15 @@ static inline unsigned probe_lows(const hc_fast *fast, const runners *ray, unsig
     return find_below(fast, ray, lanes, first, end, true);
 }
 
-/* Fewer places, as these cost more, and only if a few of them find something. */
+/* Fewer places, as these cost more, and only if a few of them find something. None on sparse
+ * ground, where little is under anything. */
 static __attribute__((noinline)) unsigned probe_patches(const hc_fast *fast, const runners *ray,
                                                         unsigned lanes)
 {
     enum { COARSE = 3, FEW = 7 };
+    if (fast->sparse) {
+        return 0;
+    }
     const unsigned below = find_below(fast, ray, lanes, 0, COARSE, false);
     return below != 0 ? below | find_below(fast, ray, lanes & ~below, COARSE, FEW, false) : 0;
 }
@@ -408,7 +412,6 @@ static __attribute__((noinline)) unsigned probe_patches(const hc_fast *fast, con
 static inline unsigned probe(const hc_fast *fast, const runners *ray, unsigned lanes)
 {
     return fast->stride_lows > 0 ? probe_lows(fast, ray, lanes, 0, PLACES)
-           : fast->sparse        ? 0
                                  : probe_patches(fast, ray, lanes);
 }
 

@@ -404,7 +404,7 @@ static void take_any(job *j, const runners *rays, const double *from, unsigned l
     } else if (j->fast->stride_lows > 0) {
         suspect(j, rays, from, lanes);
     } else {
-        const unsigned below = j->fast->sparse ? 0 : probe_patches(j->fast, rays, lanes);
+        const unsigned below = probe_patches(j->fast, rays, lanes);
         answer_any(j, rays->which, below);
         enqueue_rays(j, rays, from, lanes & ~below);
     }
