@@ -143,6 +143,16 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
            + hc_memory_taken(block_bytes(&sizes));
 }
 
+/* By what caches of today hold: two to four MiB, 32 MiB. */
+static hc_fast_ask find_ask(const layout *sizes)
+{
+    enum { SECOND = 2 << 20, LAST = 32 << 20 };
+    const size_t bytes = height_bytes(sizes) + block_bytes(sizes);
+    return bytes <= SECOND ? HC_FAST_ASK_NOTHING
+           : bytes <= LAST ? HC_FAST_ASK_ALL
+                           : HC_FAST_ASK_CLIMBING;
+}
+
 hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field *field,
                          const hc_trace_options *options, hc_log *log)
 {
@@ -153,6 +163,7 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
     const layout sizes = plan(made, field, options);
     made->tracer       = tracer;
     made->isa          = hc_isa_resolve(options->isa);
+    made->ask          = find_ask(&sizes);
     made->highest      = (double)highest_of(field);
     made->heights      = hc_take_memory(height_bytes(&sizes));
     made->blocks       = hc_take_memory(block_bytes(&sizes));

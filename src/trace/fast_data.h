@@ -58,6 +58,11 @@ typedef struct hc_fast_towers {
     float    *x, *y, *size, *rise;
 } hc_fast_towers;
 
+/* For which rays the ground is asked for ahead, by the size of heights and blocks: none where the
+ * second-level cache holds them; those that climb, from the ground most often, and so are sure to
+ * need it, where the last one does not; otherwise all. */
+typedef enum hc_fast_ask { HC_FAST_ASK_NOTHING, HC_FAST_ASK_CLIMBING, HC_FAST_ASK_ALL } hc_fast_ask;
+
 struct hc_fast {
     const hc_tracer *tracer; /* that it is part of */
 
@@ -67,6 +72,7 @@ struct hc_fast {
     bool         steps, open_sides;
     bool         sparse; /* few things on a flat ground */
     hc_isa       isa;
+    hc_fast_ask  ask;
     float        blur;  /* [cells] by which marching may misplace a ray              */
     float        slack; /* [height] by which the surface may rise on thrice that way */
     float        least; /* [height] that marching keeps above a surface in any case  */

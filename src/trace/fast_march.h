@@ -369,6 +369,13 @@ static const float CLIMB_PLACES[PLACES] = { 0.068F, 0.248F, 0.024F, 0.452F, 0.14
                                             0.35F,  0.041F, 0.192F, 0.105F, 0.586F, 0.9F,   0.017F,
                                             0.294F, 0.053F, 0.381F, 0.007F, 0.032F, 0.537F };
 
+/* Rays that climb a quarter of the field's height, unless they hit something. */
+static inline unsigned find_climbing(const hc_fast *fast, const runners *ray)
+{
+    const hc_v rise = hc_v_mul(hc_v_load(ray->end), hc_v_load(ray->dz));
+    return hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
+}
+
 /* Rays below the lowest heights, or below the patches, at one of the places from `first` on, before
  * `end`. Rays that have been found are looked at again, so that no place waits for the one before
  * it. */
@@ -377,8 +384,7 @@ static inline unsigned find_below(const hc_fast *fast, const runners *ray, unsig
 {
     const hc_v     slack  = hc_v_set(-fast->slack);
     const hc_v     way    = hc_v_sub(hc_v_load(ray->end), hc_v_set(4.0F * fast->blur));
-    const hc_v     rise   = hc_v_mul(way, hc_v_load(ray->dz));
-    const unsigned climbs = hc_v_greater(rise, hc_v_set(0.25F * (float)fast->highest));
+    const unsigned climbs = find_climbing(fast, ray);
     unsigned       below  = 0;
     for (int k = first; k < end && below != lanes; k++) {
         const hc_v part = hc_v_pick(climbs, hc_v_set(CLIMB_PLACES[k]), hc_v_set(LEVEL_PLACES[k]));

@@ -5,6 +5,7 @@
 #ifndef HC_TRACE_FAST_QUEUE_H
 #define HC_TRACE_FAST_QUEUE_H
 
+#include "fast_ask.h"
 #include "fast_beams.h"
 #include "fast_decide.h"
 #include "fast_towers.h"
@@ -419,29 +420,14 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     const unsigned marched = find_marched(&g->p.ray) & all;
     g->lanes               = marched;
     if (j->answer.any != NULL) {
+        ask_for_way(j->fast, &g->p.ray, marched, true);
         take_any(j, &g->p.ray, b->from, marched);
     } else if (!join_group(j, g)) {
+        ask_for_way(j->fast, &g->p.ray, marched, false);
         enqueue_rays(j, &g->p.ray, b->from, marched);
     }
     if (marched != all) {
         enqueue_one_by_one(j, b, which, all & ~marched);
-    }
-}
-
-/* Rays are asked for so many times sixteen before they are needed. */
-enum { AHEAD = 4 };
-
-/* Ask for sixteen items; those that are needed `once` leave the second-level cache to the tables.
- * There may be fewer: what lies behind them is fetched in vain. */
-static inline void ask_for(const void *items, size_t size, int32_t first, bool once)
-{
-    const uintptr_t start = (uintptr_t)items + (size_t)first * size;
-    for (size_t i = 0; i < HC_LANES * size; i += 64) {
-        if (once) {
-            __builtin_prefetch((const void *)(start + i), 0, 0);
-        } else {
-            __builtin_prefetch((const void *)(start + i));
-        }
     }
 }
 
