@@ -43,6 +43,20 @@ static ALWAYS_INLINE void ask_for_ground(const hc_fast *fast, const runners *ray
     }
 }
 
+/* Ask for the corners under a group at s: under every fifth ray, as those beside it need the same
+ * lines. */
+static ALWAYS_INLINE void ask_for_corners(const hc_fast *fast, const runners *ray, hc_v s)
+{
+    enum { EVERY = 5 };
+    int32_t    corners_at[HC_LANES];
+    const spot at = find_spot(fast, ray, s);
+    hc_i_store(corners_at,
+               index_of(at.i, at.j, hc_i_set(fast->stride_heights), HC_FAST_HEIGHT_BITS));
+    for (int i = 0; i < HC_LANES; i += EVERY) {
+        __builtin_prefetch(fast->heights + corners_at[i]);
+    }
+}
+
 /* Where rays are likely to need the ground: where they begin; those that climb from it also so many
  * cells on, and rays that ask for their nearest hit, or climb, at this share of their way. That is
  * a guess, but what is asked for again and again the cache keeps, although rays and hits stream

@@ -335,9 +335,9 @@ static inline void glide_on(job *j, pack *p)
 static const float TOGETHER_WIDTH  = 0.25F;
 static const float LOOKED_AT_WIDTH = 4.0F;
 
-/* Cells that they are looked at before they are marched again; towers that they glide to; groups
- * that are looked at in turns. */
-enum { TOGETHER_LOOKS = 8, TOGETHER_TOWERS = 2, ABREAST = 2 };
+/* Cells that they are looked at before they are marched again; groups that are looked at in
+ * turns. */
+enum { TOGETHER_LOOKS = 8, ABREAST = 2 };
 
 /* Of a beam's box, `ahead` of it. */
 static float width_of(const beams *b, int k, float ahead)
@@ -405,15 +405,20 @@ static void look_at_groups(job *j)
     }
 }
 
-/* From tower to tower. */
-static void glide_along(job *j, group *g)
+/* To where a tower may stand in the way, all of them before any is looked at. */
+static void glide_groups(job *j)
 {
-    pack *p = &g->p;
-    load_group(j, g);
-    for (int k = 0; k < TOGETHER_TOWERS && p->active != p->held; k++) {
-        glide_on(j, p);
-        const float s = p->s[__builtin_ctz(p->active)];
-        p->together   = width_of(&j->beams, g->beam, s) < TOGETHER_WIDTH;
+    for (int k = 0; k < j->group_count; k++) {
+        group *g = j->waiting[k];
+        load_group(j, g);
+        glide_on(j, &g->p);
+        ask_for_corners(j->fast, &g->p.ray, hc_v_load(g->p.s));
+    }
+    for (int k = 0; k < j->group_count; k++) {
+        const group *g = j->waiting[k];
+        pack        *p = &j->waiting[k]->p;
+        const float  s = p->s[__builtin_ctz(p->active)];
+        p->together    = width_of(&j->beams, g->beam, s) < TOGETHER_WIDTH;
         look_before_end(j, p);
     }
 }
@@ -427,9 +432,7 @@ static APART void finish_groups(job *j)
     int    ready_count = 0;
     int    left        = 0;
     if (j->fast->towers.listed) {
-        for (int k = 0; k < j->group_count; k++) {
-            glide_along(j, j->waiting[k]);
-        }
+        glide_groups(j);
     } else {
         look_at_groups(j);
     }
