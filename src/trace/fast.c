@@ -72,24 +72,6 @@ static size_t rows_of(int rows, int bits)
     return (size_t)((rows + (1 << bits) - 1) >> bits) << bits;
 }
 
-/* Squares of how many cells have their lowest heights kept. Returns the words that these take. */
-static size_t plan_lows(hc_fast *fast)
-{
-    enum { MOST = 520 * 260 };
-    size_t words;
-    if (!hc_fast_plain(fast)) {
-        return 0;
-    }
-    fast->low_bits = -1;
-    do {
-        fast->low_bits++;
-        fast->stride_lows = (fast->x.cells >> (fast->low_bits + 1)) + 1;
-        fast->rows_lows   = (fast->y.cells >> fast->low_bits) + 1;
-        words             = (size_t)fast->stride_lows * (size_t)fast->rows_lows;
-    } while (words > MOST);
-    return words;
-}
-
 /* Everything but the memory. */
 static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options *options)
 {
@@ -110,7 +92,7 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
-                     plan_lows(fast), blocks, hc_fast_plan_towers(fast) };
+                     hc_fast_plan_lows(fast), blocks, hc_fast_plan_towers(fast) };
 }
 
 static float highest_of(const hc_field *field)

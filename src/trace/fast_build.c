@@ -78,50 +78,6 @@ static void copy_heights(void *context, int y, int worker)
     b->steepest[y] = largest;
 }
 
-/* The lowest height of square x of a row, in steps of 2^-16, rounded down; any where the field has
- * ended. */
-static uint32_t find_low(const hc_fast *fast, int x, int y)
-{
-    const int side   = 1 << fast->low_bits;
-    const int right  = lesser((x + 1) * side, fast->x.cells);
-    const int below  = lesser((y + 1) * side, fast->y.cells);
-    float     lowest = 1.0F;
-    for (int j = y * side; j <= below; j++) {
-        for (int i = x * side; i <= right; i++) {
-            const float height = fast->heights[hc_fast_corner(fast, i, j)];
-            lowest             = height < lowest ? height : lowest;
-        }
-    }
-    return lowest < 1.0F ? (uint32_t)(lowest * 0x1p16F) : 0xffff;
-}
-
-static void find_lows(void *context, int y, int worker)
-{
-    const builder *b    = context;
-    const hc_fast *fast = b->fast;
-    uint32_t      *to   = fast->lows + (size_t)y * (size_t)fast->stride_lows;
-    (void)worker;
-    for (int k = 0; k < fast->stride_lows; k++) {
-        to[k] = find_low(fast, 2 * k, y) | find_low(fast, 2 * k + 1, y) << 16;
-    }
-}
-
-/* The ground rises far above its lowest heights everywhere. */
-static bool is_rough(const hc_fast *fast)
-{
-    const int side = 1 << fast->low_bits;
-    double    rise = 0.0;
-    for (int y = 0; y < fast->rows_lows; y++) {
-        const int j = lesser(y * side + side / 2, fast->y.cells);
-        for (int k = 0; k < fast->stride_lows; k++) {
-            const int      i   = lesser(2 * k * side + side / 2, fast->x.cells);
-            const uint32_t low = fast->lows[(size_t)y * (size_t)fast->stride_lows + (size_t)k];
-            rise += (double)fast->heights[hc_fast_corner(fast, i, j)] - 0x1p-16 * (low & 0xffff);
-        }
-    }
-    return rise > 0.25 * fast->highest * (double)fast->rows_lows * (double)fast->stride_lows;
-}
-
 /* Tops of blocks of the finest level, from their cells' corners; on steps, from their samples. */
 static void top_cells(void *context, int y, int worker)
 {
@@ -506,8 +462,7 @@ static void block_row(void *context, int y, int worker)
 static hc_result run(builder *b, int k, hc_parallel_body body, int rows, int threads, hc_log *log)
 {
     b->current = k;
-    return hc_parallel_for(rows, b->fast->levels > 4 ? threads : 1, body, b, (hc_progress){ 0 },
-                           log);
+    return hc_parallel_for(rows, threads, body, b, (hc_progress){ 0 }, log);
 }
 
 static float steepest_of(const builder *b)
@@ -560,18 +515,6 @@ static bool see_edges(builder *b, int threads, hc_log *log)
     return true;
 }
 
-/* Lowest heights where they are of use. */
-static void keep_lows(builder *b, hc_fast *fast, int threads, hc_log *log)
-{
-    if (b->sparse) {
-        fast->stride_lows = 0;
-    }
-    if (fast->stride_lows > 0) {
-        (void)run(b, 0, find_lows, fast->rows_lows, threads, log);
-        fast->stride_lows = is_rough(fast) ? 0 : fast->stride_lows;
-    }
-}
-
 static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
 {
     (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
@@ -584,7 +527,7 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     (void)run(b, 0, block_row, b->levels[0].height, threads, log);
     b->sparse    = is_sparse(b);
     fast->sparse = b->sparse;
-    keep_lows(b, fast, threads, log);
+    hc_fast_find_lows(fast, threads, log);
     if (b->sparse && !see_edges(b, threads, log)) {
         return false;
     }
@@ -627,7 +570,7 @@ hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_lo
     for (int k = 0; k < fast->levels; k++) {
         taken = take_level(&b.levels[k], fast, k) && taken;
     }
-    taken = taken && fill(&b, fast, threads, log);
+    taken = taken && fill(&b, fast, fast->levels > 4 ? threads : 1, log);
     for (int k = 0; k < fast->levels; k++) {
         free(b.levels[k].frame);
         free(b.levels[k].edges);

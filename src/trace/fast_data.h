@@ -160,6 +160,11 @@ static inline double hc_fast_run(const hc_fast_ray *r)
 /* Fill heights and blocks. */
 hc_result hc_fast_build(hc_fast *fast, const hc_field *field, int threads, hc_log *log);
 
+/* Squares of how many cells have their lowest heights kept: returns the words that these take. Find
+ * them, where they are of use. */
+size_t hc_fast_plan_lows(hc_fast *fast);
+void   hc_fast_find_lows(hc_fast *fast, int threads, hc_log *log);
+
 /* The room that towers take, in words; what they make of it; list them. */
 size_t hc_fast_plan_towers(hc_fast *fast);
 void   hc_fast_place_towers(hc_fast *fast, uint32_t *room);

@@ -1,0 +1,292 @@
+/* What becomes of lanes that stand on single cells, or at their end: they go on, are answered, or
+ * are put on trial, where sixteen are decided together. */
+#ifndef HC_TRACE_FAST_SETTLE_H
+#define HC_TRACE_FAST_SETTLE_H
+
+#include "fast_queue.h"
+
+static void leave_over(job *j, int32_t which, double t, int32_t steps, int32_t crossings)
+{
+    j->left[j->left_count++] =
+        (leftover){ .which = which, .t = t, .steps = steps, .crossings = crossings };
+}
+
+/* Lanes at the end of their segment. */
+static void end_segments(job *j, pack *p, unsigned ended)
+{
+    p->active &= ~ended;
+    for (; ended != 0; ended &= ended - 1) {
+        const int i = __builtin_ctz(ended);
+        if (j->plain) {
+            answer_miss(j, p->ray.which[i], p->ray.steps[i], p->ray.crossings[i]);
+        } else {
+            leave_over(j, p->ray.which[i], p->next[i], p->ray.steps[i], p->ray.crossings[i]);
+        }
+    }
+}
+
+/* What could not be told of ray i of a batch: walk over the cells from s on. False: that hits
+ * nothing. */
+static bool walk_cells(const job *j, const batch *b, int i, const leftover *from, float s,
+                       float span)
+{
+    hc_fast_ray r;
+    (void)take_ray(&r, j->fast, b, i, &j->rays[from->which]);
+    const double run = hc_fast_run(&r);
+    /* On steps a lane that cut a corner may have left out the cell that it cut. */
+    const double  back  = j->fast->steps ? 6.0 * (double)j->fast->blur : 0.0;
+    const double  first = from->t + ((double)s - back) / run;
+    const double  last  = from->t + (double)(s + span) / run; /* as the lane counts */
+    hc_fast_found found;
+    const bool    hit = hc_fast_walk(j->fast, &r, &found, first, last);
+    if (hit) {
+        answer_hit(j, from->which, &r, &found, from->steps, from->crossings);
+    }
+    return hit;
+}
+
+/* The answers to those in question that hit. Those of a whole group, `in_turn`, stand one behind
+ * the other. */
+static void answer_hits(const job *j, const verdict *v, unsigned hits, const int32_t *which,
+                        const int32_t *steps, const int32_t *crossings, bool in_turn)
+{
+    static const uint32_t flags[HC_LANES] = { 0 };
+    float                 t[HC_LANES];
+    int32_t               x[HC_LANES];
+    int32_t               y[HC_LANES];
+    hc_hit                other; /* of lanes that are not asked for */
+    hc_hit               *to[HC_LANES];
+    hc_hit *const         out   = j->answer.hits;
+    hc_hit *const         first = &out[which[0]];
+    for (int i = 0; i < HC_LANES; i++) {
+        t[i] = (float)v->t[i];
+    }
+    hc_i_store(x, hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first)));
+    hc_i_store(y, hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first)));
+    const void *const columns[HC_ROW_WORDS] = { t, v->u, v->v, v->height, x, y, flags, steps };
+    if (in_turn && hits == ALL_LANES) {
+        hc_rows_apart(first, sizeof *first, columns);
+        for (int i = 0; i < HC_LANES; i++) {
+            first[i].crossings = (uint32_t)crossings[i];
+        }
+        return;
+    }
+    for (int i = 0; i < HC_LANES; i++) {
+        to[i] = (hits >> i & 1) != 0 ? &out[which[i]] : &other;
+    }
+    hc_rows((void *const *)to, columns);
+    for (int i = 0; i < HC_LANES; i++) {
+        to[i]->crossings = (uint32_t)crossings[i];
+    }
+}
+
+static void answer_found(const job *j, const verdict *v, unsigned hits, const int32_t *which,
+                         const int32_t *steps, const int32_t *crossings, bool in_turn)
+{
+    if (j->answer.any != NULL) {
+        answer_any(j, which, hits);
+    } else if (hits != 0) {
+        answer_hits(j, v, hits, which, steps, crossings, in_turn);
+    }
+}
+
+static void settle(job *j, const batch *b, const verdict *v, int i)
+{
+    const trials *c   = &j->trials;
+    bool          hit = v->hit[i] != 0;
+    if (!hit && v->clear[i] == 0) {
+        const leftover from = { c->which[i], c->steps[i], c->crossings[i], c->from[i] };
+        hit                 = walk_cells(j, b, i, &from, c->s[i], c->span[i]);
+    }
+    const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
+    if (c->lane[i] >= 0) {
+        pack          *p    = &j->own[c->lane[i] / HC_LANES];
+        const int      lane = c->lane[i] % HC_LANES;
+        const unsigned bit  = 1U << lane;
+        p->held &= ~bit;
+        p->active &= ~(hit ? bit : 0U);
+        p->s[lane] = s;
+        p->ray.crossings[lane]++;
+    } else if (!hit) {
+        leave_over(j, c->which[i], c->from[i] + (double)s / b->run[i], c->steps[i],
+                   c->crossings[i]);
+    }
+}
+
+/* Keep what was added after the first sixteen. */
+static void drop_trials(trials *c, int count)
+{
+    c->count -= count;
+    if (c->count > 0) {
+        for (int k = 0; k < TRIAL_WORDS; k++) {
+            char *row = (char *)c + (size_t)k * sizeof c->which;
+            memcpy(row, row + (size_t)count * sizeof *c->which, sizeof c->which / 2);
+        }
+        memcpy(c->from, c->from + count, HC_LANES * sizeof *c->from);
+    }
+}
+
+/* Which of the first sixteen have lanes that wait. */
+static unsigned waiting(const trials *c)
+{
+    unsigned lanes = 0;
+    for (int i = 0; i < HC_LANES; i++) {
+        lanes |= (unsigned)(c->lane[i] >= 0) << i;
+    }
+    return lanes;
+}
+
+static unsigned find_set(const int32_t *flags)
+{
+    return hc_i_differ(hc_i_load(flags), hc_i_set(0));
+}
+
+static void decide(job *j)
+{
+    trials   *c     = &j->trials;
+    const int count = c->count < HC_LANES ? c->count : HC_LANES;
+    batch     b;
+    verdict   v = { .hit = { 0 } };
+    for (int i = count; i < HC_LANES; i++) {
+        c->which[i]  = c->which[0];
+        c->cell_x[i] = c->cell_x[0];
+        c->cell_y[i] = c->cell_y[0];
+    }
+    prepare_some(&b, j->fast, j->rays, c->which);
+    if (j->plain) {
+        float          heights[4][HC_LANES];
+        const question what = { c->cell_x, c->cell_y, heights, c->s, c->from };
+        read_corners(heights, j->fast, c->cell_x, c->cell_y);
+        decide_cells(j->fast, &b, &what, ALL_LANES, &v);
+    }
+    unsigned       rest = ALL_LANES >> (HC_LANES - count);
+    const unsigned hits = find_set(v.hit) & rest;
+    answer_found(j, &v, hits, c->which, c->steps, c->crossings, false);
+    rest &= ~(hits & ~waiting(c)); /* others run on those lanes by now */
+    for (; rest != 0; rest &= rest - 1) {
+        settle(j, &b, &v, __builtin_ctz(rest));
+    }
+    drop_trials(c, count);
+}
+
+/* Lanes of a pack to be decided. `lane` is the first of the pack, or -1 if they do not wait. */
+static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lanes, bool waits)
+{
+    trials       *c     = &j->trials;
+    const int32_t first = (int32_t)(p - j->own) * HC_LANES;
+    const int     n     = c->count;
+    int32_t       lane[HC_LANES];
+    for (int i = 0; i < HC_LANES; i++) {
+        lane[i] = waits ? first + i : -1;
+    }
+    hc_pack_words(c->lane + n, lanes, lane);
+    hc_pack_words(c->which + n, lanes, p->ray.which);
+    hc_pack_words(c->cell_x + n, lanes, seen->cell_x);
+    hc_pack_words(c->cell_y + n, lanes, seen->cell_y);
+    hc_pack_words(c->steps + n, lanes, p->ray.steps);
+    hc_pack_words(c->crossings + n, lanes, p->ray.crossings);
+    hc_pack_words(c->s + n, lanes, p->s);
+    hc_pack_words(c->span + n, lanes, seen->span);
+    hc_pack_doubles(c->from + n, lanes, p->from);
+    c->count = n + __builtin_popcount(lanes);
+}
+
+/* The lanes of a group that wait, on their own. */
+static void decide_group(job *j, pack *p)
+{
+    const batch   *b    = &p->group->b;
+    const question what = { p->cell_x, p->cell_y, p->heights, p->s, b->from };
+    verdict        v;
+    hc_v_store(v.s, hc_v_set(0.0F)); /* read where nothing is clear, too */
+    decide_cells(j->fast, b, &what, p->held, &v);
+    unsigned       hits  = find_set(v.hit) & p->held;
+    const unsigned clear = find_set(v.clear) & p->held & ~hits;
+    answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings, true);
+    for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
+        const int      i    = __builtin_ctz(rest);
+        const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], b->from[i] };
+        hits |= (unsigned)walk_cells(j, b, i, &from, p->s[i], p->span[i]) << i;
+    }
+    const unsigned on    = p->held & ~hits;
+    const hc_v     s     = hc_v_load(p->s);
+    const hc_v     next  = hc_v_pick(clear, hc_v_load(v.s), hc_v_add(s, hc_v_load(p->span)));
+    const hc_i     moves = hc_i_load(p->ray.crossings);
+    hc_v_store(p->s, hc_v_pick(on, next, s));
+    hc_i_store(p->ray.crossings, hc_i_pick(on, hc_i_add(moves, hc_i_set(1)), moves));
+    p->active &= ~hits;
+    p->held = 0;
+}
+
+/* Lanes of a group wait until none goes on. */
+static void hold(pack *p, const sight *seen, unsigned lanes)
+{
+    const hc_i x    = hc_i_pick(lanes, hc_i_load(seen->cell_x), hc_i_load(p->cell_x));
+    const hc_i y    = hc_i_pick(lanes, hc_i_load(seen->cell_y), hc_i_load(p->cell_y));
+    const hc_v span = hc_v_pick(lanes, hc_v_load(seen->span), hc_v_load(p->span));
+    hc_i_store(p->cell_x, x);
+    hc_i_store(p->cell_y, y);
+    hc_v_store(p->span, span);
+    const corners h = { hc_v_pick(lanes, seen->patch.h00, hc_v_load(p->heights[0])),
+                        hc_v_pick(lanes, seen->patch.h10, hc_v_load(p->heights[1])),
+                        hc_v_pick(lanes, seen->patch.h01, hc_v_load(p->heights[2])),
+                        hc_v_pick(lanes, seen->patch.h11, hc_v_load(p->heights[3])) };
+    store_corners(p->heights, &h);
+    p->held |= lanes;
+}
+
+/* The lanes of a pack that stand on single cells. */
+static void see_near(job *j, pack *p)
+{
+    sight          seen;
+    const unsigned lanes = p->near;
+    look(j->fast, p, lanes, &seen);
+    const hc_v s     = hc_v_load(p->s);
+    const hc_v ahead = hc_v_add(s, hc_v_load(seen.span));
+    hc_v_store(p->s, hc_v_pick(seen.clear, ahead, s));
+    const hc_i moves = hc_i_load(p->ray.crossings);
+    hc_i_store(p->ray.crossings, hc_i_pick(seen.clear, hc_i_add(moves, hc_i_set(1)), moves));
+    p->near = seen.clear & hc_v_greater(hc_v_load(p->until), ahead);
+    if (p->group != NULL) {
+        hold(p, &seen, lanes & ~seen.clear);
+        return;
+    }
+    if (j->answer.any != NULL) {
+        answer_any(j, p->ray.which, seen.below);
+        p->active &= ~seen.below;
+    } else if (seen.below != 0) {
+        put_on_trial(j, p, &seen, seen.below, false);
+        p->active &= ~seen.below;
+        if (j->trials.count >= HC_LANES) {
+            decide(j);
+        }
+    }
+    const unsigned doubtful = lanes & ~seen.clear & ~seen.below;
+    if (doubtful != 0) {
+        put_on_trial(j, p, &seen, doubtful, true);
+        p->held |= doubtful;
+        if (j->trials.count >= HC_LANES) {
+            decide(j);
+        }
+    }
+}
+
+/* Lanes that have just begun, or have come past what stopped them. What stops them now stands in
+ * the cell that they have come to. */
+static inline void glide_on(job *j, pack *p)
+{
+    const hc_v     s     = hc_v_load(p->s);
+    const hc_v     again = hc_v_load(p->again);
+    const unsigned off   = hc_v_greater(s, again) & p->active & ~p->held & ~p->near;
+    if (off == 0) {
+        return;
+    }
+    const landing l    = glide(j->fast, &p->ray, p->s, off);
+    const hc_v    past = hc_v_add(l.s, hc_v_set(GLIDE_AFTER));
+    const hc_v    next = hc_v_pick(l.above, past, hc_v_set(INFINITY));
+    hc_v_store(p->s, l.s);
+    hc_v_store(p->again, hc_v_pick(off, next, again));
+    hc_v_store(p->until, hc_v_pick(l.above, l.s, hc_v_load(p->until)));
+    p->near |= l.above;
+}
+
+#endif
