@@ -125,10 +125,10 @@ size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
            + hc_memory_taken(block_bytes(&sizes));
 }
 
-/* By what caches of today hold: two to four MiB, 32 MiB. */
+/* By what caches of today hold: up to 3 MiB, 32 MiB. */
 static hc_fast_ask find_ask(const layout *sizes)
 {
-    enum { SECOND = 2 << 20, LAST = 32 << 20 };
+    enum { SECOND = 3 << 20, LAST = 32 << 20 };
     const size_t bytes = height_bytes(sizes) + block_bytes(sizes);
     return bytes <= SECOND ? HC_FAST_ASK_NOTHING
            : bytes <= LAST ? HC_FAST_ASK_ALL
