@@ -26,35 +26,36 @@ static ALWAYS_INLINE void ask_for(const void *items, size_t size, int32_t first,
     }
 }
 
-/* Ask for the corner and the finest block that rays are over at s. */
-static ALWAYS_INLINE void ask_for_ground(const hc_fast *fast, const runners *ray, hc_v s)
+/* Ask for the corners of cells, of every so many-th lane. */
+static ALWAYS_INLINE void ask_for_corners(const hc_fast *fast, const spot *at, int every)
 {
-    int32_t    corners_at[HC_LANES];
-    int32_t    blocks_at[HC_LANES];
-    const spot at  = find_spot(fast, ray, s);
-    const hc_i bit = hc_i_set(HC_FAST_BASE_BITS);
-    hc_i_store(corners_at,
-               index_of(at.i, at.j, hc_i_set(fast->stride_heights), HC_FAST_HEIGHT_BITS));
-    hc_i_store(blocks_at, index_of(hc_i_right(at.i, bit), hc_i_right(at.j, bit),
-                                   hc_i_set(fast->stride[0]), HC_FAST_BLOCK_BITS));
-    for (int i = 0; i < HC_LANES; i++) {
-        __builtin_prefetch(fast->heights + corners_at[i]);
-        __builtin_prefetch(fast->blocks + blocks_at[i]);
+    int32_t    index[HC_LANES];
+    const hc_i stride = hc_i_set(fast->stride_heights);
+    hc_i_store(index, index_of(at->i, at->j, stride, HC_FAST_HEIGHT_BITS));
+    for (int i = 0; i < HC_LANES; i += every) {
+        __builtin_prefetch(fast->heights + index[i]);
     }
 }
 
-/* Ask for the corners under a group at s: under every fifth ray, as those beside it need the same
- * lines. */
-static ALWAYS_INLINE void ask_for_corners(const hc_fast *fast, const runners *ray, hc_v s)
+/* Ask for the finest blocks that cells belong to. */
+static ALWAYS_INLINE void ask_for_blocks(const hc_fast *fast, const spot *at)
 {
-    enum { EVERY = 5 };
-    int32_t    corners_at[HC_LANES];
-    const spot at = find_spot(fast, ray, s);
-    hc_i_store(corners_at,
-               index_of(at.i, at.j, hc_i_set(fast->stride_heights), HC_FAST_HEIGHT_BITS));
-    for (int i = 0; i < HC_LANES; i += EVERY) {
-        __builtin_prefetch(fast->heights + corners_at[i]);
+    int32_t    index[HC_LANES];
+    const hc_i bits   = hc_i_set(HC_FAST_BASE_BITS);
+    const hc_i stride = hc_i_set(fast->stride[0]);
+    const hc_i x      = hc_i_right(at->i, bits);
+    const hc_i y      = hc_i_right(at->j, bits);
+    hc_i_store(index, index_of(x, y, stride, HC_FAST_BLOCK_BITS));
+    for (int i = 0; i < HC_LANES; i++) {
+        __builtin_prefetch(fast->blocks + index[i]);
     }
+}
+
+static ALWAYS_INLINE void ask_for_ground(const hc_fast *fast, const runners *ray, hc_v s)
+{
+    const spot at = find_spot(fast, ray, s);
+    ask_for_corners(fast, &at, 1);
+    ask_for_blocks(fast, &at);
 }
 
 /* Where rays are likely to need the ground: where they begin; those that climb from it also so many

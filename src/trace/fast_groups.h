@@ -34,6 +34,9 @@ static const float LOOKED_AT_WIDTH = 4.0F;
  * turns. */
 enum { TOGETHER_LOOKS = 8, ABREAST = 2 };
 
+/* Every so many-th ray of a group asks for its corners: those beside it need the same lines. */
+enum { ASKED = 5 };
+
 /* Of a beam's box, `ahead` of it. */
 static float width_of(const beams *b, int k, float ahead)
 {
@@ -107,7 +110,8 @@ static void glide_groups(job *j)
         group *g = j->waiting[k];
         load_group(j, g);
         glide_on(j, &g->p);
-        ask_for_corners(j->fast, &g->p.ray, hc_v_load(g->p.s));
+        const spot at = find_spot(j->fast, &g->p.ray, hc_v_load(g->p.s));
+        ask_for_corners(j->fast, &at, ASKED);
     }
     for (int k = 0; k < j->group_count; k++) {
         const group *g = j->waiting[k];
