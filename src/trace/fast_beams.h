@@ -217,15 +217,16 @@ static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at,
     return active & ~stops & hc_v_greater(hc_v_load(b->end), ahead);
 }
 
-/* Until few of the first `count` beams go on. */
+/* Until few of the first `count` beams go on: the longer it takes, the more are few. */
 static inline void march_beams(const hc_fast *fast, beams *b, int count, ground kind)
 {
-    enum { FEW = 1, ROUNDS = 40 };
-    unsigned active  = (1U << count) - 1;
-    unsigned sinking = 0;
-    hc_v     s       = hc_v_load(b->s); /* not in memory between steps */
-    hc_i     level   = hc_i_load(b->level);
-    for (int i = 0; i < ROUNDS && __builtin_popcount(active) > (count > FEW ? FEW : 0); i++) {
+    enum { FEW = 1, PATIENCE = 32 };
+    const int few     = count > FEW ? FEW : 0;
+    unsigned  active  = (1U << count) - 1;
+    unsigned  sinking = 0;
+    hc_v      s       = hc_v_load(b->s); /* not in memory between steps */
+    hc_i      level   = hc_i_load(b->level);
+    for (int i = 0; __builtin_popcount(active) > few + i / PATIENCE; i++) {
         active = step_beams(fast, b, &s, &level, active, &sinking, kind);
     }
     hc_v_store(b->s, s);
