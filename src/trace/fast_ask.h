@@ -68,9 +68,12 @@ static const float ASK_FAR  = 0.25F;
 static ALWAYS_INLINE void ask_for_way(const hc_fast *fast, const runners *ray, unsigned lanes,
                                       bool any)
 {
+    if (fast->ask == HC_FAST_ASK_NOTHING || lanes == 0) {
+        return;
+    }
     const unsigned climbing = find_climbing(fast, ray) & lanes;
     const bool     climb    = any && __builtin_popcount(climbing) > HC_LANES / 2;
-    if (fast->ask == HC_FAST_ASK_NOTHING || (fast->ask == HC_FAST_ASK_CLIMBING && !climb)) {
+    if (fast->ask == HC_FAST_ASK_CLIMBING && !climb) {
         return;
     }
     ask_for_ground(fast, ray, hc_v_set(0.0F));

@@ -45,11 +45,6 @@ static float larger(float a, float b)
     return a > b ? a : b;
 }
 
-static int lesser(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 static int sample_of(const hc_fast_axis *axis, int corner)
 {
     const int sample = corner + axis->first;
@@ -85,7 +80,7 @@ static void top_cells(void *context, int y, int worker)
     const hc_fast *fast  = b->fast;
     const int      side  = fast->steps ? 0 : 1;
     const int      above = y * BASE;
-    const int      last  = lesser(above + BASE, fast->y.cells);
+    const int      last  = hc_fast_lesser(above + BASE, fast->y.cells);
     float         *tops  = b->levels[0].tops + (size_t)y * b->levels[0].pitch;
     (void)worker;
     for (int j = above; j < last + side; j++) {
@@ -104,7 +99,7 @@ static void top_blocks(void *context, int y, int worker)
     const level   *fine   = &b->levels[b->current - 1];
     const level   *coarse = &b->levels[b->current];
     float         *tops   = coarse->tops + (size_t)y * coarse->pitch;
-    const int      rows   = lesser(fine->height - y * RATIO, RATIO);
+    const int      rows   = hc_fast_lesser(fine->height - y * RATIO, RATIO);
     (void)worker;
     for (int x = 0; x < coarse->width; x++) {
         float top = 0.0F;
@@ -139,10 +134,10 @@ static void edge_cells(void *context, int y, int worker)
     const builder *b    = context;
     const hc_fast *fast = b->fast;
     const level   *l    = &b->levels[0];
-    const int      last = lesser(y * BASE + BASE, fast->y.cells);
+    const int      last = hc_fast_lesser(y * BASE + BASE, fast->y.cells);
     (void)worker;
     for (int x = 0; x < l->width; x++) {
-        const int end    = lesser(x * BASE + BASE, fast->x.cells);
+        const int end    = hc_fast_lesser(x * BASE + BASE, fast->x.cells);
         float     column = 0.0F;
         float     row    = 0.0F;
         for (int j = y * BASE; j <= last; j++) {
@@ -164,10 +159,10 @@ static void edge_blocks(void *context, int y, int worker)
     const builder *b      = context;
     const level   *fine   = &b->levels[b->current - 1];
     const level   *coarse = &b->levels[b->current];
-    const int      high   = lesser(fine->height - y * RATIO, RATIO);
+    const int      high   = hc_fast_lesser(fine->height - y * RATIO, RATIO);
     (void)worker;
     for (int x = 0; x < coarse->width; x++) {
-        const int wide = lesser(fine->width - x * RATIO, RATIO);
+        const int wide = hc_fast_lesser(fine->width - x * RATIO, RATIO);
         for (int side = 0; side < SIDES; side++) {
             const bool upright = side == LEFT || side == RIGHT;
             float      most    = 0.0F;

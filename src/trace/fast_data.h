@@ -97,6 +97,11 @@ struct hc_fast {
     hc_fast_towers towers;
 };
 
+static inline int hc_fast_lesser(int a, int b)
+{
+    return a < b ? a : b;
+}
+
 /* Cells along a side of a level's blocks, and blocks along an axis without the one more. */
 static inline int hc_fast_block_side(int level)
 {

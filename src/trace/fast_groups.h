@@ -114,10 +114,10 @@ static void glide_groups(job *j)
         ask_for_corners(j->fast, &at, ASKED);
     }
     for (int k = 0; k < j->group_count; k++) {
-        const group *g = j->waiting[k];
-        pack        *p = &j->waiting[k]->p;
-        const float  s = p->s[__builtin_ctz(p->active)];
-        p->together    = width_of(&j->beams, g->beam, s) < TOGETHER_WIDTH;
+        group      *g = j->waiting[k];
+        pack       *p = &g->p;
+        const float s = p->s[__builtin_ctz(p->active)];
+        p->together   = width_of(&j->beams, g->beam, s) < TOGETHER_WIDTH;
         look_before_end(j, p);
     }
 }

@@ -3,11 +3,6 @@
 
 #include "base/parallel.h"
 
-static int lesser(int a, int b)
-{
-    return a < b ? a : b;
-}
-
 size_t hc_fast_plan_lows(hc_fast *fast)
 {
     enum { MOST = 520 * 260 };
@@ -29,8 +24,8 @@ size_t hc_fast_plan_lows(hc_fast *fast)
 static uint32_t find_low(const hc_fast *fast, int x, int y)
 {
     const int side   = 1 << fast->low_bits;
-    const int right  = lesser((x + 1) * side, fast->x.cells);
-    const int below  = lesser((y + 1) * side, fast->y.cells);
+    const int right  = hc_fast_lesser((x + 1) * side, fast->x.cells);
+    const int below  = hc_fast_lesser((y + 1) * side, fast->y.cells);
     float     lowest = 1.0F;
     for (int j = y * side; j <= below; j++) {
         for (int i = x * side; i <= right; i++) {
@@ -57,9 +52,9 @@ static bool is_rough(const hc_fast *fast)
     const int side = 1 << fast->low_bits;
     double    rise = 0.0;
     for (int y = 0; y < fast->rows_lows; y++) {
-        const int j = lesser(y * side + side / 2, fast->y.cells);
+        const int j = hc_fast_lesser(y * side + side / 2, fast->y.cells);
         for (int k = 0; k < fast->stride_lows; k++) {
-            const int      i   = lesser(2 * k * side + side / 2, fast->x.cells);
+            const int      i   = hc_fast_lesser(2 * k * side + side / 2, fast->x.cells);
             const uint32_t low = fast->lows[(size_t)y * (size_t)fast->stride_lows + (size_t)k];
             rise += (double)fast->heights[hc_fast_corner(fast, i, j)] - 0x1p-16 * (low & 0xffff);
         }
