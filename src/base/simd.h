@@ -15,6 +15,8 @@
  * hc_v_pick          a where the bit is set, b elsewhere; hc_i_pick likewise
  * hc_i_from_v        towards zero
  * hc_v_gather        the word at base + 4 * index where the bit is set, anything elsewhere
+ * hc_v_lookup        table[index] of a table of thirty-two: where HC_LOOKUPS is 1, sooner done than
+ *                    a gather
  * hc_i_first         of the lanes whose bit is set, of which there is one
  * hc_gather_pairs    two words from base + 8 * index where the bit is set, anything elsewhere
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
@@ -39,6 +41,17 @@
 #include "simd_avx2.h"
 #else
 #include "simd_portable.h"
+#endif
+
+#if defined(HC_SIMD_AVX512) && HC_LANES == 16
+enum { HC_LOOKUPS = 1 };
+#else
+enum { HC_LOOKUPS = 0 };
+
+static inline hc_v hc_v_lookup(const float *table, hc_i index)
+{
+    return hc_v_gather(table, index, (1U << HC_LANES) - 1);
+}
 #endif
 
 static inline hc_i hc_v_bits(hc_v a)

@@ -167,6 +167,11 @@ static inline hc_i hc_i_lookup(const int32_t *table, hc_i index)
     return _mm512_permutexvar_epi32(index, _mm512_loadu_si512(table));
 }
 
+static inline hc_v hc_v_lookup(const float *table, hc_i index)
+{
+    return _mm512_permutex2var_ps(_mm512_loadu_ps(table), index, _mm512_loadu_ps(table + 16));
+}
+
 /* Without optimisation gcc's gathers are macros, which convert masks in our name. */
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wsign-conversion"

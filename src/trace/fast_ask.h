@@ -5,9 +5,7 @@
 #ifndef HC_TRACE_FAST_ASK_H
 #define HC_TRACE_FAST_ASK_H
 
-#include "fast_march.h"
-
-#define ALWAYS_INLINE inline __attribute__((always_inline))
+#include "fast_look.h"
 
 /* Rays are asked for so many times sixteen before they are needed. */
 enum { AHEAD = 4 };

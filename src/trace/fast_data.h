@@ -9,6 +9,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#define ALWAYS_INLINE inline __attribute__((always_inline))
+
 /* Blocks of level k are 2 * 4^k cells wide: 2^20 is the widest field. */
 enum { HC_FAST_LEVELS = 10, HC_FAST_RATIO_BITS = 2, HC_FAST_BASE_BITS = 1 };
 

@@ -4,7 +4,7 @@
 #ifndef HC_TRACE_FAST_DECIDE_H
 #define HC_TRACE_FAST_DECIDE_H
 
-#include "fast_march.h"
+#include "fast_look.h"
 #include "fast_rays.h"
 
 /* Cells in question. Twice the lanes: lanes are added sixteen at a time, and decided likewise. */
@@ -79,7 +79,8 @@ static inline void store_corners(float out[4][HC_LANES], const corners *h)
 static inline void read_corners(float out[4][HC_LANES], const hc_fast *fast, const int32_t *cell_x,
                                 const int32_t *cell_y)
 {
-    const corners h = find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff, false);
+    const corners h =
+        find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff, NEAR_NOTHING);
     store_corners(out, &h);
 }
 

@@ -44,7 +44,7 @@ static inline bool look_single(const hc_fast *fast, pack *p, sight *seen)
         if (seen->clear == 0) {
             return true;
         }
-        p->s[0] += seen->span[0];
+        p->s[0] += seen->span;
         p->ray.crossings[0]++;
     } while (p->until[0] > p->s[0]);
     return false;
@@ -76,11 +76,11 @@ static inline bool march_single(const hc_fast *fast, pack *p, const hc_fast_ray 
             continue;
         }
         const double first = r->from + (double)p->s[0] * over;
-        const double last  = r->from + (double)(p->s[0] + seen.span[0]) * over;
+        const double last  = r->from + (double)(p->s[0] + seen.span) * over;
         if ((any && seen.below != 0) || hc_fast_walk(fast, r, found, first, last)) {
             return true;
         }
-        p->s[0] += seen.span[0];
+        p->s[0] += seen.span;
         p->ray.crossings[0]++;
     }
     return false;
@@ -101,6 +101,7 @@ static bool cast_single(const hc_fast *fast, const hc_ray *ray, bool any, hc_hit
     p.s[0]     = 0.0F;
     p.again[0] = -1.0F;
     p.together = false;
+    p.group    = NULL;
     p.level[0] = fast->first_level;
     bool hits  = false;
     if (find_marched(&p.ray) == 0) {

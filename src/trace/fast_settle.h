@@ -181,12 +181,12 @@ static void put_on_trial(job *j, const pack *p, const sight *seen, unsigned lane
     }
     hc_pack_words(c->lane + n, lanes, lane);
     hc_pack_words(c->which + n, lanes, p->ray.which);
-    hc_pack_words(c->cell_x + n, lanes, seen->cell_x);
-    hc_pack_words(c->cell_y + n, lanes, seen->cell_y);
+    hc_pack_words(c->cell_x + n, lanes, &seen->cell_x);
+    hc_pack_words(c->cell_y + n, lanes, &seen->cell_y);
     hc_pack_words(c->steps + n, lanes, p->ray.steps);
     hc_pack_words(c->crossings + n, lanes, p->ray.crossings);
     hc_pack_words(c->s + n, lanes, p->s);
-    hc_pack_words(c->span + n, lanes, seen->span);
+    hc_pack_words(c->span + n, lanes, &seen->span);
     hc_pack_doubles(c->from + n, lanes, p->from);
     c->count = n + __builtin_popcount(lanes);
 }
@@ -220,9 +220,9 @@ static void decide_group(job *j, pack *p)
 /* Lanes of a group wait until none goes on. */
 static void hold(pack *p, const sight *seen, unsigned lanes)
 {
-    const hc_i x    = hc_i_pick(lanes, hc_i_load(seen->cell_x), hc_i_load(p->cell_x));
-    const hc_i y    = hc_i_pick(lanes, hc_i_load(seen->cell_y), hc_i_load(p->cell_y));
-    const hc_v span = hc_v_pick(lanes, hc_v_load(seen->span), hc_v_load(p->span));
+    const hc_i x    = hc_i_pick(lanes, seen->cell_x, hc_i_load(p->cell_x));
+    const hc_i y    = hc_i_pick(lanes, seen->cell_y, hc_i_load(p->cell_y));
+    const hc_v span = hc_v_pick(lanes, seen->span, hc_v_load(p->span));
     hc_i_store(p->cell_x, x);
     hc_i_store(p->cell_y, y);
     hc_v_store(p->span, span);
@@ -241,7 +241,7 @@ static void see_near(job *j, pack *p)
     const unsigned lanes = p->near;
     look(j->fast, p, lanes, &seen);
     const hc_v s     = hc_v_load(p->s);
-    const hc_v ahead = hc_v_add(s, hc_v_load(seen.span));
+    const hc_v ahead = hc_v_add(s, seen.span);
     hc_v_store(p->s, hc_v_pick(seen.clear, ahead, s));
     const hc_i moves = hc_i_load(p->ray.crossings);
     hc_i_store(p->ray.crossings, hc_i_pick(seen.clear, hc_i_add(moves, hc_i_set(1)), moves));
