@@ -142,7 +142,7 @@ static inline lane_axis turn_axis(double origin, double direction, double t, dou
                                   double scale)
 {
     const float rate = (float)(direction * scale);
-    const bool  up   = !(direction < 0.0);
+    const bool  up   = !(rate < 0.0F);
     const float most = up ? 0x1p60F : -0x1p60F;
     return (lane_axis){ .at    = (float)(origin + t * direction - start),
                         .rate  = rate,
@@ -241,38 +241,72 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
     }
 }
 
-/* A batch along one axis. */
-static inline void turn_along(float *restrict at, float *restrict rate, float *restrict over,
-                              int32_t *restrict ahead, const batch *b, int axis,
-                              const double *scale)
+/* Lanes of a batch in the lanes' coordinates, before they are rounded. */
+typedef struct turned {
+    hc_d x, y, z, dx, dy, dz, end;
+} turned;
+
+static ALWAYS_INLINE turned turn_part(const batch *b, int lane)
 {
-    for (int i = 0; i < HC_LANES; i++) {
-        const lane_axis a =
-            turn_axis(b->origin[axis][i], b->direction[axis][i], b->from[i], 0.0, scale[i]);
-        at[i]    = a.at;
-        rate[i]  = a.rate;
-        over[i]  = a.over;
-        ahead[i] = a.ahead;
-    }
+    const hc_d run   = hc_d_load(b->run + lane);
+    const hc_d from  = hc_d_load(b->from + lane);
+    const hc_d scale = hc_d_set(1.0) / run;
+    const hc_d dx    = hc_d_load(b->direction[0] + lane);
+    const hc_d dy    = hc_d_load(b->direction[1] + lane);
+    const hc_d dz    = hc_d_load(b->direction[2] + lane);
+    return (turned){ .x   = hc_d_load(b->origin[0] + lane) + from * dx,
+                     .y   = hc_d_load(b->origin[1] + lane) + from * dy,
+                     .z   = hc_d_load(b->origin[2] + lane) + from * dz,
+                     .dx  = dx * scale,
+                     .dy  = dy * scale,
+                     .dz  = dz * scale,
+                     .end = (hc_d_load(b->to + lane) - from) * run };
+}
+
+/* What follows from rates along an axis. Returns which rays go down. */
+static inline unsigned turn_along(float *over, int32_t *ahead, const float *rate)
+{
+    const hc_v     rates = hc_v_load(rate);
+    const unsigned down  = hc_v_greater(hc_v_set(0.0F), rates);
+    const unsigned moves = hc_v_greater(hc_v_abs(rates), hc_v_set(0x1p-60F));
+    const hc_v     most  = hc_v_pick(down, hc_v_set(-0x1p60F), hc_v_set(0x1p60F));
+    hc_v_store(over, hc_v_pick(moves, hc_v_div(hc_v_set(1.0F), rates), most));
+    hc_i_store(ahead, hc_i_pick(down, hc_i_set(0), hc_i_set(1)));
+    return down;
 }
 
 /* A batch in the lanes' coordinates. */
 static inline void turn_batch(runners *q, const hc_fast *fast, const batch *b)
 {
-    double scale[HC_LANES];
-    for (int i = 0; i < HC_LANES; i++) {
-        scale[i]  = 1.0 / b->run[i];
-        q->end[i] = (float)((b->to[i] - b->from[i]) * b->run[i]) + 2.0F * fast->blur;
+    const hc_i none = hc_i_set(0);
+    for (int lane = 0; lane < HC_LANES; lane += HC_D_BOTH) {
+        const turned some = turn_part(b, lane);
+        const turned more = turn_part(b, lane + HC_D_MORE);
+        hc_d_round(q->x + lane, some.x, more.x);
+        hc_d_round(q->y + lane, some.y, more.y);
+        hc_d_round(q->z + lane, some.z, more.z);
+        hc_d_round(q->dx + lane, some.dx, more.dx);
+        hc_d_round(q->dy + lane, some.dy, more.dy);
+        hc_d_round(q->dz + lane, some.dz, more.dz);
+        hc_d_round(q->end + lane, some.end, more.end);
     }
-    turn_along(q->x, q->dx, q->rx, q->ahead_x, b, 0, scale);
-    turn_along(q->y, q->dy, q->ry, q->ahead_y, b, 1, scale);
-    for (int i = 0; i < HC_LANES; i++) {
-        q->quadrant[i]  = shift_to_quadrant(q->ahead_x[i], q->ahead_y[i]);
-        q->z[i]         = (float)(b->origin[2][i] + b->from[i] * b->direction[2][i]);
-        q->dz[i]        = (float)(b->direction[2][i] * scale[i]);
-        q->steps[i]     = 0;
-        q->crossings[i] = 0;
+    const unsigned left  = turn_along(q->rx, q->ahead_x, q->dx);
+    const unsigned back  = turn_along(q->ry, q->ahead_y, q->dy);
+    const hc_i     along = hc_i_pick(left, hc_i_set(8), none);
+    hc_i_store(q->quadrant, hc_i_or(along, hc_i_pick(back, hc_i_set(16), none)));
+    hc_v_store(q->end, hc_v_add(hc_v_load(q->end), hc_v_set(2.0F * fast->blur)));
+    hc_i_store(q->steps, none);
+    hc_i_store(q->crossings, none);
+}
+
+/* Rays that hit nothing, as their way is none. */
+static unsigned find_misses(const batch *b)
+{
+    unsigned misses = 0;
+    for (int lane = 0; lane < HC_LANES; lane += HC_D_LANES) {
+        misses |= hc_d_less(hc_d_load(b->to + lane), hc_d_load(b->from + lane)) << lane;
     }
+    return misses;
 }
 
 /* Rays to be marched, others than those to be walked. */
@@ -329,7 +363,9 @@ static bool join_group(job *j, group *g)
     if (!join_beam(&j->beams, j->group_count, g, j->fast)) {
         return false;
     }
-    clear_lanes(&g->p.ray, g->lanes);
+    if (g->lanes != ALL_LANES) {
+        clear_lanes(&g->p.ray, g->lanes);
+    }
     j->used |= 1U << (g - j->groups);
     g->beam                      = j->group_count;
     g->begun                     = false;
@@ -427,7 +463,11 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
         enqueue_rays(j, &g->p.ray, b->from, marched);
     }
     if (marched != all) {
-        enqueue_one_by_one(j, b, which, all & ~marched);
+        const unsigned misses = find_misses(b) & all & ~marched;
+        for (unsigned rest = misses; rest != 0; rest &= rest - 1) {
+            answer_miss(j, which[__builtin_ctz(rest)], 0, 0);
+        }
+        enqueue_one_by_one(j, b, which, all & ~marched & ~misses);
     }
 }
 

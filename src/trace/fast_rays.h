@@ -1,9 +1,9 @@
 /* Rays on their way into lanes, sixteen at a time: in cell coordinates, cut to where they can hit.
- * The loops over lanes become vector code: they choose, but never branch. What comes out of a ray
- * does not depend on the others. */
+ * What comes out of a ray does not depend on the others. */
 #ifndef HC_TRACE_FAST_RAYS_H
 #define HC_TRACE_FAST_RAYS_H
 
+#include "base/doubles.h"
 #include "base/lanes.h"
 #include "fast_exact.h"
 
@@ -23,13 +23,6 @@ typedef struct batch {
     double from[HC_LANES], to[HC_LANES];
 } batch;
 
-static inline void place_axis(double *placed, const float *values, double scale, double shift)
-{
-    for (int i = 0; i < HC_LANES; i++) {
-        placed[i] = (double)values[i] * scale + shift;
-    }
-}
-
 /* Rays all of whose numbers are finite, and that go somewhere. */
 static inline unsigned find_good(float columns[HC_ROW_WORDS][HC_LANES])
 {
@@ -46,99 +39,100 @@ static inline unsigned find_good(float columns[HC_ROW_WORDS][HC_LANES])
            & hc_i_differ(hc_i_left(bits, hc_i_set(1)), hc_i_set(0));
 }
 
-static inline void place_rays(batch *b, const hc_fast *fast, float columns[HC_ROW_WORDS][HC_LANES])
-{
-    const double   scale[3] = { fast->x.scale, fast->y.scale, fast->scale_z };
-    const double   shift[3] = { fast->x.shift, fast->y.shift, fast->shift_z };
-    const unsigned good     = find_good(columns);
-    hc_v_store(columns[3], hc_v_pick(good, hc_v_load(columns[3]), hc_v_set(INFINITY)));
-    for (int i = 0; i < HC_LANES; i++) {
-        b->from[i] = (double)columns[3][i];
-        b->to[i]   = lesser(HC_FAST_T_MAX, (double)columns[7][i]);
-    }
-    for (int k = 0; k < 3; k++) {
-        place_axis(b->origin[k], columns[k], scale[k], shift[k]);
-        place_axis(b->direction[k], columns[4 + k], scale[k], 0.0);
-    }
-    for (int i = 0; i < HC_LANES; i++) {
-        b->inverse[0][i] = 1.0 / b->direction[0][i];
-        b->inverse[1][i] = 1.0 / b->direction[1][i];
-        b->run[i]        = fabs(b->direction[0][i]) + fabs(b->direction[1][i]);
-    }
-}
+/* The parts of their ways on which rays can hit: rows of a batch while they are made. */
+typedef struct ways {
+    hc_d from, to;
+} ways;
 
-/* A loop of its own: of one that both chooses and cuts gcc makes branches. */
-static inline void cut(batch *b, const double *enter, const double *leave)
+static inline void cut(ways *w, hc_d enter, hc_d leave)
 {
-    for (int i = 0; i < HC_LANES; i++) {
-        b->from[i] = greater(enter[i], b->from[i]);
-        b->to[i]   = lesser(leave[i], b->to[i]);
-    }
+    w->from = hc_d_max(enter, w->from);
+    w->to   = hc_d_min(leave, w->to);
 }
 
 /* Cut to the field's ends along an unwrapped axis. A ray along them meets them at infinity, or,
  * where it is on one of them, at NaN, which cuts nothing. */
-static inline void cut_sides(batch *b, int axis, const hc_fast_axis *a)
+static inline void cut_sides(ways *w, const hc_fast_axis *a, hc_d origin, hc_d inverse)
 {
-    HC_ROW(double) enter[HC_LANES];
-    HC_ROW(double) leave[HC_LANES];
-    for (int i = 0; i < HC_LANES; i++) {
-        const double origin  = b->origin[axis][i];
-        const double inverse = b->inverse[axis][i];
-        const double low     = (a->low - origin) * inverse;
-        const double high    = (a->high - origin) * inverse;
-        const bool   up      = inverse > 0.0;
-        enter[i]             = up ? low : high;
-        leave[i]             = up ? high : low;
-    }
-    cut(b, enter, leave);
+    const hc_d none = hc_d_set(0.0);
+    const hc_d low  = (hc_d_set(a->low) - origin) * inverse;
+    const hc_d high = (hc_d_set(a->high) - origin) * inverse;
+    cut(w, hc_d_if_less(none, inverse, low, high), hc_d_if_less(none, inverse, high, low));
 }
 
 /* Cut to HC_PERIODS_MAX periods of a wrapped axis, from where the ray is at most at height 1. */
-static inline void cut_periods(batch *b, int axis, const hc_fast_axis *a)
+static inline void cut_periods(ways *w, const hc_fast_axis *a, hc_d inverse, hc_d z, hc_d dz)
 {
-    for (int i = 0; i < HC_LANES; i++) {
-        const double down  = (1.0 - b->origin[2][i]) / b->direction[2][i];
-        const double start = b->direction[2][i] < 0.0 ? greater(b->from[i], down) : b->from[i];
-        const double run   = HC_PERIODS_MAX * a->cells * fabs(b->inverse[axis][i]);
-        b->to[i]           = lesser(start + run, b->to[i]);
-    }
+    const hc_d down  = hc_d_max(w->from, (hc_d_set(1.0) - z) / dz);
+    const hc_d start = hc_d_if_less(dz, hc_d_set(0.0), down, w->from);
+    const hc_d run   = hc_d_set((double)HC_PERIODS_MAX * a->cells) * hc_d_abs(inverse);
+    w->to            = hc_d_min(start + run, w->to);
 }
 
 /* Cut to the heights below the highest sample. */
-static inline void cut_top(batch *b, double top)
+static inline void cut_top(ways *w, double highest, hc_d z, hc_d dz)
 {
-    HC_ROW(double) enter[HC_LANES];
-    HC_ROW(double) leave[HC_LANES];
-    for (int i = 0; i < HC_LANES; i++) {
-        const double direction = b->direction[2][i];
-        const double origin    = b->origin[2][i];
-        const double t         = (top - origin) / direction;
-        const bool   over      = (direction == 0.0) & (origin > top);
-        const double never     = over ? INFINITY : -INFINITY;
-        enter[i]               = direction < 0.0 ? t : never;
-        leave[i]               = direction > 0.0 ? t : INFINITY;
+    const hc_d none   = hc_d_set(0.0);
+    const hc_d never  = hc_d_set(INFINITY);
+    const hc_d always = hc_d_set(-INFINITY);
+    const hc_d top    = hc_d_set(highest);
+    const hc_d t      = (top - z) / dz;
+    const hc_d level  = hc_d_if_less(top, z, never, always);
+    const hc_d rising = hc_d_if_less(none, dz, always, level);
+    cut(w, hc_d_if_less(dz, none, t, rising), hc_d_if_less(none, dz, t, never));
+}
+
+/* Lanes from `lane` on of a batch. */
+static inline void prepare_part(batch *b, int lane, const hc_fast *fast,
+                                float columns[HC_ROW_WORDS][HC_LANES])
+{
+    const hc_d none      = hc_d_set(0.0); /* -0 becomes 0 */
+    const hc_d scale[3]  = { hc_d_set(fast->x.scale), hc_d_set(fast->y.scale),
+                             hc_d_set(fast->scale_z) };
+    const hc_d x         = hc_d_of_floats(columns[0] + lane) * scale[0] + hc_d_set(fast->x.shift);
+    const hc_d y         = hc_d_of_floats(columns[1] + lane) * scale[1] + hc_d_set(fast->y.shift);
+    const hc_d z         = hc_d_of_floats(columns[2] + lane) * scale[2] + hc_d_set(fast->shift_z);
+    const hc_d dx        = hc_d_of_floats(columns[4] + lane) * scale[0] + none;
+    const hc_d dy        = hc_d_of_floats(columns[5] + lane) * scale[1] + none;
+    const hc_d dz        = hc_d_of_floats(columns[6] + lane) * scale[2] + none;
+    const hc_d inverse_x = hc_d_set(1.0) / dx;
+    const hc_d inverse_y = hc_d_set(1.0) / dy;
+    const hc_d last      = hc_d_of_floats(columns[7] + lane);
+    ways       w = { hc_d_of_floats(columns[3] + lane), hc_d_min(hc_d_set(HC_FAST_T_MAX), last) };
+    if (!fast->x.wrapped) {
+        cut_sides(&w, &fast->x, x, inverse_x);
     }
-    cut(b, enter, leave);
+    if (!fast->y.wrapped) {
+        cut_sides(&w, &fast->y, y, inverse_y);
+    }
+    if (fast->x.wrapped) {
+        cut_periods(&w, &fast->x, inverse_x, z, dz);
+    }
+    if (fast->y.wrapped) {
+        cut_periods(&w, &fast->y, inverse_y, z, dz);
+    }
+    cut_top(&w, fast->highest + HEADROOM, z, dz);
+    hc_d_store(b->origin[0] + lane, x);
+    hc_d_store(b->origin[1] + lane, y);
+    hc_d_store(b->origin[2] + lane, z);
+    hc_d_store(b->direction[0] + lane, dx);
+    hc_d_store(b->direction[1] + lane, dy);
+    hc_d_store(b->direction[2] + lane, dz);
+    hc_d_store(b->inverse[0] + lane, inverse_x);
+    hc_d_store(b->inverse[1] + lane, inverse_y);
+    hc_d_store(b->run + lane, hc_d_abs(dx) + hc_d_abs(dy));
+    hc_d_store(b->from + lane, w.from);
+    hc_d_store(b->to + lane, w.to);
 }
 
 /* `columns`: the rays' words, each in all lanes. */
 static inline void prepare(batch *b, const hc_fast *fast, float columns[HC_ROW_WORDS][HC_LANES])
 {
-    place_rays(b, fast, columns);
-    if (!fast->x.wrapped) {
-        cut_sides(b, 0, &fast->x);
+    const unsigned good = find_good(columns);
+    hc_v_store(columns[3], hc_v_pick(good, hc_v_load(columns[3]), hc_v_set(INFINITY)));
+    for (int lane = 0; lane < HC_LANES; lane += HC_D_LANES) {
+        prepare_part(b, lane, fast, columns);
     }
-    if (!fast->y.wrapped) {
-        cut_sides(b, 1, &fast->y);
-    }
-    if (fast->x.wrapped) {
-        cut_periods(b, 0, &fast->x);
-    }
-    if (fast->y.wrapped) {
-        cut_periods(b, 1, &fast->y);
-    }
-    cut_top(b, fast->highest + HEADROOM);
 }
 
 /* Those of `rays` that are named. */

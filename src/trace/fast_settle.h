@@ -51,19 +51,15 @@ static void answer_hits(const job *j, const verdict *v, unsigned hits, const int
                         const int32_t *steps, const int32_t *crossings, bool in_turn)
 {
     static const uint32_t flags[HC_LANES] = { 0 };
-    float                 t[HC_LANES];
     int32_t               x[HC_LANES];
     int32_t               y[HC_LANES];
     hc_hit                other; /* of lanes that are not asked for */
     hc_hit               *to[HC_LANES];
     hc_hit *const         out   = j->answer.hits;
     hc_hit *const         first = &out[which[0]];
-    for (int i = 0; i < HC_LANES; i++) {
-        t[i] = (float)v->t[i];
-    }
     hc_i_store(x, hc_i_add(hc_i_load(v->cell_x), hc_i_set(j->fast->x.first)));
     hc_i_store(y, hc_i_add(hc_i_load(v->cell_y), hc_i_set(j->fast->y.first)));
-    const void *const columns[HC_ROW_WORDS] = { t, v->u, v->v, v->height, x, y, flags, steps };
+    const void *const columns[HC_ROW_WORDS] = { v->t, v->u, v->v, v->height, x, y, flags, steps };
     if (in_turn && hits == ALL_LANES) {
         hc_rows_apart(first, sizeof *first, columns);
         for (int i = 0; i < HC_LANES; i++) {
@@ -92,13 +88,14 @@ static void answer_found(const job *j, const verdict *v, unsigned hits, const in
 
 static void settle(job *j, const batch *b, const verdict *v, int i)
 {
-    const trials *c   = &j->trials;
-    bool          hit = v->hit[i] != 0;
-    if (!hit && v->clear[i] == 0) {
+    const trials *c     = &j->trials;
+    const bool    clear = (v->clear >> i & 1) != 0;
+    bool          hit   = (v->hit >> i & 1) != 0;
+    if (!hit && !clear) {
         const leftover from = { c->which[i], c->steps[i], c->crossings[i], c->from[i] };
         hit                 = walk_cells(j, b, i, &from, c->s[i], c->span[i]);
     }
-    const float s = v->clear[i] != 0 ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
+    const float s = clear ? v->s[i] : c->s[i] + c->span[i]; /* nothing before it */
     if (c->lane[i] >= 0) {
         pack          *p    = &j->own[c->lane[i] / HC_LANES];
         const int      lane = c->lane[i] % HC_LANES;
@@ -136,17 +133,14 @@ static unsigned waiting(const trials *c)
     return lanes;
 }
 
-static unsigned find_set(const int32_t *flags)
-{
-    return hc_i_differ(hc_i_load(flags), hc_i_set(0));
-}
-
 static void decide(job *j)
 {
     trials   *c     = &j->trials;
     const int count = c->count < HC_LANES ? c->count : HC_LANES;
     batch     b;
-    verdict   v = { .hit = { 0 } };
+    verdict   v;
+    v.hit   = 0;
+    v.clear = 0;
     for (int i = count; i < HC_LANES; i++) {
         c->which[i]  = c->which[0];
         c->cell_x[i] = c->cell_x[0];
@@ -160,7 +154,7 @@ static void decide(job *j)
         decide_cells(j->fast, &b, &what, ALL_LANES, &v);
     }
     unsigned       rest = ALL_LANES >> (HC_LANES - count);
-    const unsigned hits = find_set(v.hit) & rest;
+    const unsigned hits = v.hit & rest;
     answer_found(j, &v, hits, c->which, c->steps, c->crossings, false);
     rest &= ~(hits & ~waiting(c)); /* others run on those lanes by now */
     for (; rest != 0; rest &= rest - 1) {
@@ -199,9 +193,14 @@ static void decide_group(job *j, pack *p)
     verdict        v;
     hc_v_store(v.s, hc_v_set(0.0F)); /* read where nothing is clear, too */
     decide_cells(j->fast, b, &what, p->held, &v);
-    unsigned       hits  = find_set(v.hit) & p->held;
-    const unsigned clear = find_set(v.clear) & p->held & ~hits;
+    unsigned       hits  = v.hit & p->held;
+    const unsigned clear = v.clear & p->held & ~hits;
     answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings, true);
+    if (hits == p->held) {
+        p->active &= ~hits;
+        p->held = 0;
+        return;
+    }
     for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
         const int      i    = __builtin_ctz(rest);
         const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], b->from[i] };
