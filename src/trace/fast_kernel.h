@@ -156,6 +156,7 @@ static void start(job *j)
     j->used           = 0;
     j->suspects.count = 0;
     memset(j->suspects.words, 0, sizeof j->suspects.words);
+    memset(&j->beams, 0, sizeof j->beams);
     for (int k = 0; k < PACKS; k++) {
         j->packs[k] = &j->own[k];
         memset(j->packs[k], 0, sizeof *j->packs[k]);

@@ -357,9 +357,6 @@ static bool join_group(job *j, group *g)
         s[i] = (float)(b->from[i] * b->run[i] - first);
     }
     memcpy(g->s, s, sizeof s);
-    if (j->group_count == 0) {
-        memset(&j->beams, 0, sizeof j->beams);
-    }
     if (!join_beam(&j->beams, j->group_count, g, j->fast)) {
         return false;
     }
