@@ -15,23 +15,29 @@
 
 #include "simd.h"
 
+#define HC_D(type, name, parameters, expression)                                                   \
+    static inline type name parameters                                                             \
+    {                                                                                              \
+        return expression;                                                                         \
+    }
+
 #if HC_LANES == 1
 
 typedef double hc_d;
 enum { HC_D_LANES = 1 };
 
-HC_ONE(hc_d, hc_d_set, (double a), a)
-HC_ONE(hc_d, hc_d_load, (const double *p), *p)
-HC_ONE(hc_d, hc_d_of_floats, (const float *p), (double)*p)
-HC_ONE(hc_d, hc_d_of_ints, (const int32_t *p), *p)
-HC_ONE(hc_d, hc_d_abs, (hc_d a), fabs(a))
-HC_ONE(hc_d, hc_d_sqrt, (hc_d a), sqrt(a))
-HC_ONE(hc_d, hc_d_min, (hc_d a, hc_d b), a < b ? a : b)
-HC_ONE(hc_d, hc_d_max, (hc_d a, hc_d b), a > b ? a : b)
-HC_ONE(hc_d, hc_d_if_less, (hc_d x, hc_d y, hc_d a, hc_d b), x < y ? a : b)
-HC_ONE(hc_d, hc_d_pick, (unsigned set, hc_d a, hc_d b), (set & 1) != 0 ? a : b)
-HC_ONE(unsigned, hc_d_less, (hc_d a, hc_d b), a < b)
-HC_ONE(unsigned, hc_d_most, (hc_d a, hc_d b), a <= b)
+HC_D(hc_d, hc_d_set, (double a), a)
+HC_D(hc_d, hc_d_load, (const double *p), *p)
+HC_D(hc_d, hc_d_of_floats, (const float *p), (double)*p)
+HC_D(hc_d, hc_d_of_ints, (const int32_t *p), *p)
+HC_D(hc_d, hc_d_abs, (hc_d a), fabs(a))
+HC_D(hc_d, hc_d_sqrt, (hc_d a), sqrt(a))
+HC_D(hc_d, hc_d_min, (hc_d a, hc_d b), a < b ? a : b)
+HC_D(hc_d, hc_d_max, (hc_d a, hc_d b), a > b ? a : b)
+HC_D(hc_d, hc_d_if_less, (hc_d x, hc_d y, hc_d a, hc_d b), x < y ? a : b)
+HC_D(hc_d, hc_d_pick, (unsigned set, hc_d a, hc_d b), (set & 1) != 0 ? a : b)
+HC_D(unsigned, hc_d_less, (hc_d a, hc_d b), a < b)
+HC_D(unsigned, hc_d_most, (hc_d a, hc_d b), a <= b)
 
 static inline void hc_d_store(double *p, hc_d a)
 {
@@ -49,30 +55,17 @@ static inline void hc_d_round(float *p, hc_d a, hc_d b)
 typedef __m512d hc_d;
 enum { HC_D_LANES = 8 };
 
-static inline hc_d hc_d_set(double a)
-{
-    return _mm512_set1_pd(a);
-}
-
-static inline hc_d hc_d_load(const double *p)
-{
-    return _mm512_loadu_pd(p);
-}
+HC_D(hc_d, hc_d_set, (double a), _mm512_set1_pd(a))
+HC_D(hc_d, hc_d_load, (const double *p), _mm512_loadu_pd(p))
 
 static inline void hc_d_store(double *p, hc_d a)
 {
     _mm512_storeu_pd(p, a);
 }
 
-static inline hc_d hc_d_of_floats(const float *p)
-{
-    return _mm512_cvtps_pd(_mm256_loadu_ps(p));
-}
-
-static inline hc_d hc_d_of_ints(const int32_t *p)
-{
-    return _mm512_cvtepi32_pd(_mm256_loadu_si256((const __m256i *)p));
-}
+HC_D(hc_d, hc_d_of_floats, (const float *p), _mm512_cvtps_pd(_mm256_loadu_ps(p)))
+HC_D(hc_d, hc_d_of_ints, (const int32_t *p),
+     _mm512_cvtepi32_pd(_mm256_loadu_si256((const __m256i *)p)))
 
 static inline void hc_d_round(float *p, hc_d a, hc_d b)
 {
@@ -80,110 +73,46 @@ static inline void hc_d_round(float *p, hc_d a, hc_d b)
     _mm512_storeu_ps(p, _mm512_insertf32x8(low, _mm512_cvtpd_ps(b), 1));
 }
 
-static inline hc_d hc_d_abs(hc_d a)
-{
-    return _mm512_abs_pd(a);
-}
-
-static inline hc_d hc_d_sqrt(hc_d a)
-{
-    return _mm512_sqrt_pd(a);
-}
-
-static inline hc_d hc_d_min(hc_d a, hc_d b)
-{
-    return _mm512_min_pd(a, b);
-}
-
-static inline hc_d hc_d_max(hc_d a, hc_d b)
-{
-    return _mm512_max_pd(a, b);
-}
-
-static inline unsigned hc_d_less(hc_d a, hc_d b)
-{
-    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
-}
-
-static inline unsigned hc_d_most(hc_d a, hc_d b)
-{
-    return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
-}
-
-static inline hc_d hc_d_pick(unsigned set, hc_d a, hc_d b)
-{
-    return _mm512_mask_mov_pd(b, (__mmask8)set, a);
-}
-
-static inline hc_d hc_d_if_less(hc_d x, hc_d y, hc_d a, hc_d b)
-{
-    return _mm512_mask_mov_pd(b, _mm512_cmp_pd_mask(x, y, _CMP_LT_OQ), a);
-}
+HC_D(hc_d, hc_d_abs, (hc_d a), _mm512_abs_pd(a))
+HC_D(hc_d, hc_d_sqrt, (hc_d a), _mm512_sqrt_pd(a))
+HC_D(hc_d, hc_d_min, (hc_d a, hc_d b), _mm512_min_pd(a, b))
+HC_D(hc_d, hc_d_max, (hc_d a, hc_d b), _mm512_max_pd(a, b))
+HC_D(unsigned, hc_d_less, (hc_d a, hc_d b), _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ))
+HC_D(unsigned, hc_d_most, (hc_d a, hc_d b), _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ))
+HC_D(hc_d, hc_d_pick, (unsigned set, hc_d a, hc_d b), _mm512_mask_mov_pd(b, (__mmask8)set, a))
+HC_D(hc_d, hc_d_if_less, (hc_d x, hc_d y, hc_d a, hc_d b),
+     _mm512_mask_mov_pd(b, _mm512_cmp_pd_mask(x, y, _CMP_LT_OQ), a))
 
 #elif defined(HC_SIMD_AVX2)
 
 typedef __m256d hc_d;
 enum { HC_D_LANES = 4 };
 
-static inline hc_d hc_d_set(double a)
-{
-    return _mm256_set1_pd(a);
-}
-
-static inline hc_d hc_d_load(const double *p)
-{
-    return _mm256_loadu_pd(p);
-}
+HC_D(hc_d, hc_d_set, (double a), _mm256_set1_pd(a))
+HC_D(hc_d, hc_d_load, (const double *p), _mm256_loadu_pd(p))
 
 static inline void hc_d_store(double *p, hc_d a)
 {
     _mm256_storeu_pd(p, a);
 }
 
-static inline hc_d hc_d_of_floats(const float *p)
-{
-    return _mm256_cvtps_pd(_mm_loadu_ps(p));
-}
-
-static inline hc_d hc_d_of_ints(const int32_t *p)
-{
-    return _mm256_cvtepi32_pd(_mm_loadu_si128((const __m128i *)p));
-}
+HC_D(hc_d, hc_d_of_floats, (const float *p), _mm256_cvtps_pd(_mm_loadu_ps(p)))
+HC_D(hc_d, hc_d_of_ints, (const int32_t *p),
+     _mm256_cvtepi32_pd(_mm_loadu_si128((const __m128i *)p)))
 
 static inline void hc_d_round(float *p, hc_d a, hc_d b)
 {
     _mm256_storeu_ps(p, _mm256_set_m128(_mm256_cvtpd_ps(b), _mm256_cvtpd_ps(a)));
 }
 
-static inline hc_d hc_d_abs(hc_d a)
-{
-    return _mm256_andnot_pd(_mm256_set1_pd(-0.0), a);
-}
-
-static inline hc_d hc_d_sqrt(hc_d a)
-{
-    return _mm256_sqrt_pd(a);
-}
-
-static inline hc_d hc_d_min(hc_d a, hc_d b)
-{
-    return _mm256_min_pd(a, b);
-}
-
-static inline hc_d hc_d_max(hc_d a, hc_d b)
-{
-    return _mm256_max_pd(a, b);
-}
-
-static inline unsigned hc_d_less(hc_d a, hc_d b)
-{
-    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
-}
-
-static inline unsigned hc_d_most(hc_d a, hc_d b)
-{
-    return (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ));
-}
+HC_D(hc_d, hc_d_abs, (hc_d a), _mm256_andnot_pd(_mm256_set1_pd(-0.0), a))
+HC_D(hc_d, hc_d_sqrt, (hc_d a), _mm256_sqrt_pd(a))
+HC_D(hc_d, hc_d_min, (hc_d a, hc_d b), _mm256_min_pd(a, b))
+HC_D(hc_d, hc_d_max, (hc_d a, hc_d b), _mm256_max_pd(a, b))
+HC_D(unsigned, hc_d_less, (hc_d a, hc_d b),
+     (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ)))
+HC_D(unsigned, hc_d_most, (hc_d a, hc_d b),
+     (unsigned)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LE_OQ)))
 
 static inline hc_d hc_d_pick(unsigned set, hc_d a, hc_d b)
 {
@@ -192,10 +121,8 @@ static inline hc_d hc_d_pick(unsigned set, hc_d a, hc_d b)
     return _mm256_blendv_pd(b, a, _mm256_castsi256_pd(_mm256_cmpeq_epi64(bits, bit)));
 }
 
-static inline hc_d hc_d_if_less(hc_d x, hc_d y, hc_d a, hc_d b)
-{
-    return _mm256_blendv_pd(b, a, _mm256_cmp_pd(x, y, _CMP_LT_OQ));
-}
+HC_D(hc_d, hc_d_if_less, (hc_d x, hc_d y, hc_d a, hc_d b),
+     _mm256_blendv_pd(b, a, _mm256_cmp_pd(x, y, _CMP_LT_OQ)))
 
 #else
 
@@ -234,55 +161,27 @@ static inline void hc_d_round(float *p, hc_d a, hc_d b)
     memcpy(p, &all, sizeof all);
 }
 
-static inline hc_d hc_d_abs(hc_d a)
-{
-    return (hc_d)((hc_d_bits)a & INT64_MAX);
-}
+HC_D(hc_d, hc_d_abs, (hc_d a), (hc_d)((hc_d_bits)a &INT64_MAX))
 
 static inline hc_d hc_d_sqrt(hc_d a)
 {
     return (hc_d){ sqrt(a[0]), sqrt(a[1]) };
 }
 
-static inline hc_d hc_d_choose(hc_d_bits mask, hc_d a, hc_d b)
-{
-    return (hc_d)(((hc_d_bits)a & mask) | ((hc_d_bits)b & ~mask));
-}
-
-static inline hc_d hc_d_min(hc_d a, hc_d b)
-{
-    return hc_d_choose(a < b, a, b);
-}
-
-static inline hc_d hc_d_max(hc_d a, hc_d b)
-{
-    return hc_d_choose(a > b, a, b);
-}
-
-static inline unsigned hc_d_set_bits(hc_d_bits mask)
-{
-    return (unsigned)((mask[0] & 1) | (mask[1] & 2));
-}
-
-static inline unsigned hc_d_less(hc_d a, hc_d b)
-{
-    return hc_d_set_bits(a < b);
-}
-
-static inline unsigned hc_d_most(hc_d a, hc_d b)
-{
-    return hc_d_set_bits(a <= b);
-}
+HC_D(hc_d, hc_d_choose, (hc_d_bits mask, hc_d a, hc_d b),
+     (hc_d)(((hc_d_bits)a & mask) | ((hc_d_bits)b & ~mask)))
+HC_D(hc_d, hc_d_min, (hc_d a, hc_d b), hc_d_choose(a < b, a, b))
+HC_D(hc_d, hc_d_max, (hc_d a, hc_d b), hc_d_choose(a > b, a, b))
+HC_D(unsigned, hc_d_set_bits, (hc_d_bits mask), (unsigned)((mask[0] & 1) | (mask[1] & 2)))
+HC_D(unsigned, hc_d_less, (hc_d a, hc_d b), hc_d_set_bits(a < b))
+HC_D(unsigned, hc_d_most, (hc_d a, hc_d b), hc_d_set_bits(a <= b))
 
 static inline hc_d hc_d_pick(unsigned set, hc_d a, hc_d b)
 {
     return (hc_d){ (set & 1) != 0 ? a[0] : b[0], (set & 2) != 0 ? a[1] : b[1] };
 }
 
-static inline hc_d hc_d_if_less(hc_d x, hc_d y, hc_d a, hc_d b)
-{
-    return hc_d_choose(x < y, a, b);
-}
+HC_D(hc_d, hc_d_if_less, (hc_d x, hc_d y, hc_d a, hc_d b), hc_d_choose(x < y, a, b))
 
 #endif
 

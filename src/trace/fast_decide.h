@@ -47,20 +47,11 @@ typedef struct test {
     unsigned across; /* leaves along v */
 } test;
 
-typedef struct slab {
-    hc_d enter, leave;
-} slab;
-
-/* A ray that runs along the cells enters and leaves at infinity, or never; where it is on their
- * border, at NaN. */
-static inline slab cut_slab(const batch *b, int axis, int lane, hc_d cell)
+/* A ray's way over the cells of a column, or a row. */
+static inline ways cut_slab(const batch *b, int axis, int lane, hc_d cell)
 {
-    const hc_d none    = hc_d_set(0.0);
-    const hc_d origin  = hc_d_load(b->origin[axis] + lane);
-    const hc_d inverse = hc_d_load(b->inverse[axis] + lane);
-    const hc_d low     = (cell - origin) * inverse;
-    const hc_d high    = (cell + hc_d_set(1.0) - origin) * inverse;
-    return (slab){ hc_d_if_less(none, inverse, low, high), hc_d_if_less(none, inverse, high, low) };
+    return find_slab(cell, cell + hc_d_set(1.0), hc_d_load(b->origin[axis] + lane),
+                     hc_d_load(b->inverse[axis] + lane));
 }
 
 static inline void store_corners(float out[4][HC_LANES], const corners *h)
@@ -125,25 +116,25 @@ static inline void test_part(test *out, int lane, const batch *b, const int32_t 
     const hc_d     to      = hc_d_load(b->to + lane);
     const hc_d     i       = hc_d_of_ints(cell_x + lane);
     const hc_d     j       = hc_d_of_ints(cell_y + lane);
-    const slab     x       = cut_slab(b, 0, lane, i);
-    const slab     y       = cut_slab(b, 1, lane, j);
+    const ways     x       = cut_slab(b, 0, lane, i);
+    const ways     y       = cut_slab(b, 1, lane, j);
     const hc_d     begin   = hc_d_load(since + lane) * run + hc_d_of_floats(s + lane);
-    const hc_d     first   = hc_d_max(y.enter, hc_d_load(b->from + lane));
-    const hc_d     enter   = hc_d_max(x.enter, first);
-    const hc_d     leave   = hc_d_min(x.leave, hc_d_min(y.leave, to));
+    const hc_d     first   = hc_d_max(y.from, hc_d_load(b->from + lane));
+    const hc_d     enter   = hc_d_max(x.from, first);
+    const hc_d     leave   = hc_d_min(x.to, hc_d_min(y.to, to));
     const gaps     gap     = solve(b, lane, i, j, heights, enter);
     const hc_d     t       = enter + gap.root;
-    const unsigned on_x    = hc_d_most(enter, x.leave);
-    const unsigned on_y    = hc_d_most(enter, y.leave);
+    const unsigned on_x    = hc_d_most(enter, x.to);
+    const unsigned on_y    = hc_d_most(enter, y.to);
     const unsigned ahead   = on_x & on_y & hc_d_most(enter, to);
     const unsigned outside = hc_d_less(hc_d_set(0.0), gap.height);
     const unsigned in      = hc_d_most(enter * run, begin) & outside & ahead;
     hc_d_store(out->t + lane, t);
     hc_d_store(out->leave + lane, leave);
-    hc_d_store(out->other + lane, hc_d_max(x.leave, y.leave));
+    hc_d_store(out->other + lane, hc_d_max(x.to, y.to));
     out->hit |= (in & hc_d_most(t, leave)) << lane;
     out->open |= (in & hc_d_less(leave, t)) << lane;
-    out->across |= hc_d_less(y.leave, x.leave) << lane;
+    out->across |= hc_d_less(y.to, x.to) << lane;
 }
 
 static inline void test_cells(test *out, const batch *b, const int32_t *cell_x,
@@ -189,8 +180,7 @@ static inline hc_i step_cells(const batch *b, int axis, hc_i cell, unsigned lane
 
 static inline unsigned find_outside(hc_i cell, const hc_fast_axis *axis)
 {
-    const hc_i last = hc_i_set(axis->cells - 1);
-    return hc_i_differ(hc_i_max(hc_i_min(cell, last), hc_i_set(0)), cell);
+    return hc_i_differ(keep_inside(cell, axis), cell);
 }
 
 /* The next cells of those that are open; any cell for the others. Returns which have one. */
@@ -216,10 +206,11 @@ static __attribute__((noinline)) void test_next(const hc_fast *fast, const batch
                                                 const question *c, test *first, verdict *v)
 {
     static const float none[HC_LANES] = { 0.0F };
-    test               next;
-    float              heights[4][HC_LANES];
-    unsigned           past = 0;
-    const unsigned     on   = next_cells(fast, b, first, v);
+    HC_ROW(double) ahead[HC_LANES]; /* s, not before the end of the next cells */
+    test           next;
+    float          heights[4][HC_LANES];
+    unsigned       past = 0;
+    const unsigned on   = next_cells(fast, b, first, v);
     read_corners(heights, fast, v->cell_x, v->cell_y);
     test_cells(&next, b, v->cell_x, v->cell_y, heights, first->leave, none);
     for (int lane = 0; lane < HC_LANES; lane += HC_D_LANES) {
@@ -229,13 +220,12 @@ static __attribute__((noinline)) void test_next(const hc_fast *fast, const batch
         const hc_d t     = hc_d_load(first->t + lane);
         const hc_d way   = (leave - hc_d_load(c->from + lane)) * run;
         past |= hc_d_less(hc_d_set(0x1p-21) * way, aside) << lane;
-        hc_d_store(next.other + lane, way * hc_d_set(1.0 + 0x1p-22)); /* s, not before */
+        hc_d_store(ahead + lane, way * hc_d_set(1.0 + 0x1p-22));
         hc_d_store(first->t + lane,
                    hc_d_pick((on & next.hit) >> lane, hc_d_load(next.t + lane), t));
     }
     for (int lane = 0; lane < HC_LANES; lane += HC_D_BOTH) {
-        const double *s = next.other + lane;
-        hc_d_round(v->s + lane, hc_d_load(s), hc_d_load(s + HC_D_MORE));
+        hc_d_round(v->s + lane, hc_d_load(ahead + lane), hc_d_load(ahead + lane + HC_D_MORE));
     }
     const hc_v least = hc_v_add(hc_v_load(c->s), hc_v_set(0.25F * fast->blur));
     v->clear         = on & past & next.open & hc_v_greater(hc_v_load(v->s), least);

@@ -110,6 +110,12 @@ static inline hc_v gap_at(const corners *h, hc_v x, hc_v y, hc_v z)
     return hc_v_sub(z, hc_v_about_muladd(y, hc_v_sub(lower, upper), upper));
 }
 
+/* The cells of an axis that are next to these, which may be beyond its ends. */
+static inline hc_i keep_inside(hc_i cell, const hc_fast_axis *axis)
+{
+    return hc_i_max(hc_i_min(cell, hc_i_set(axis->cells - 1)), hc_i_set(0));
+}
+
 /* Where rays are at s, and on which cell. */
 typedef struct spot {
     hc_v x, y, z;
@@ -121,9 +127,8 @@ static inline spot find_spot(const hc_fast *fast, const runners *ray, hc_v s)
     const hc_v x = hc_v_about_muladd(s, hc_v_load(ray->dx), hc_v_load(ray->x));
     const hc_v y = hc_v_about_muladd(s, hc_v_load(ray->dy), hc_v_load(ray->y));
     const hc_v z = hc_v_about_muladd(s, hc_v_load(ray->dz), hc_v_load(ray->z));
-    const hc_i i = hc_i_max(hc_i_min(hc_i_from_v(x), hc_i_set(fast->x.cells - 1)), hc_i_set(0));
-    const hc_i j = hc_i_max(hc_i_min(hc_i_from_v(y), hc_i_set(fast->y.cells - 1)), hc_i_set(0));
-    return (spot){ x, y, z, i, j };
+    return (spot){ x, y, z, keep_inside(hc_i_from_v(x), &fast->x),
+                   keep_inside(hc_i_from_v(y), &fast->y) };
 }
 
 /* How far above the patches rays are at s, but for what fast->slack allows. */
@@ -284,8 +289,8 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const place at   = find_place(p);
     const hc_i  fine = hc_i_set(0);
     const hc_v  out  = to_leave(fast, p, &at, at.cell_x, at.cell_y, fine);
-    const hc_i  x_in = hc_i_max(hc_i_min(at.cell_x, hc_i_set(fast->x.cells - 1)), fine);
-    const hc_i  y_in = hc_i_max(hc_i_min(at.cell_y, hc_i_set(fast->y.cells - 1)), fine);
+    const hc_i  x_in = keep_inside(at.cell_x, &fast->x);
+    const hc_i  y_in = keep_inside(at.cell_y, &fast->y);
     seen->span       = out;
     seen->cell_x     = x_in;
     seen->cell_y     = y_in;

@@ -132,52 +132,45 @@ static double leave_period(const hc_fast_ray *r, int axis, const hc_fast_axis *a
     return leave;
 }
 
-/* A ray along one axis as a lane has it. */
-typedef struct lane_axis {
-    float   at, rate, over;
-    int32_t ahead;
-} lane_axis;
-
-static inline lane_axis turn_axis(double origin, double direction, double t, double start,
-                                  double scale)
+/* What follows from rates along an axis. Returns which rays go down. */
+static inline unsigned turn_along(float *over, int32_t *ahead, const float *rate)
 {
-    const float rate = (float)(direction * scale);
-    const bool  up   = !(rate < 0.0F);
-    const float most = up ? 0x1p60F : -0x1p60F;
-    return (lane_axis){ .at    = (float)(origin + t * direction - start),
-                        .rate  = rate,
-                        .over  = fabsf(rate) > 0x1p-60F ? 1.0F / rate : most,
-                        .ahead = up };
+    const hc_v     rates = hc_v_load(rate);
+    const unsigned down  = hc_v_greater(hc_v_set(0.0F), rates);
+    const unsigned moves = hc_v_greater(hc_v_abs(rates), hc_v_set(0x1p-60F));
+    const hc_v     most  = hc_v_pick(down, hc_v_set(-0x1p60F), hc_v_set(0x1p60F));
+    hc_v_store(over, hc_v_pick(moves, hc_v_div(hc_v_set(1.0F), rates), most));
+    hc_i_store(ahead, hc_i_pick(down, hc_i_set(0), hc_i_set(1)));
+    return down;
 }
 
-static inline int32_t shift_to_quadrant(int32_t ahead_x, int32_t ahead_y)
+/* What follows from all lanes' rates. */
+static inline void find_ahead(runners *q)
 {
-    return 8 * (1 - ahead_x) + 16 * (1 - ahead_y);
+    const hc_i     none  = hc_i_set(0);
+    const unsigned left  = turn_along(q->rx, q->ahead_x, q->dx);
+    const unsigned back  = turn_along(q->ry, q->ahead_y, q->dy);
+    const hc_i     along = hc_i_pick(left, hc_i_set(8), none);
+    hc_i_store(q->quadrant, hc_i_or(along, hc_i_pick(back, hc_i_set(16), none)));
 }
 
-/* A segment from t to `next`, in cells from `start`, at place k of the queue. */
+/* A segment from t to `next`, in cells from `start`, at place k of the queue; find_ahead() does the
+ * rest. */
 static void enqueue_segment(job *j, int k, const hc_fast_ray *r, const double start[2], double t,
                             double next)
 {
-    runners        *q     = &j->queue;
-    const double    run   = hc_fast_run(r);
-    const double    scale = 1.0 / run;
-    const lane_axis x     = turn_axis(r->origin[0], r->direction[0], t, start[0], scale);
-    const lane_axis y     = turn_axis(r->origin[1], r->direction[1], t, start[1], scale);
-    q->x[k]               = x.at;
-    q->y[k]               = y.at;
-    q->dx[k]              = x.rate;
-    q->dy[k]              = y.rate;
-    q->rx[k]              = x.over;
-    q->ry[k]              = y.over;
-    q->ahead_x[k]         = x.ahead;
-    q->ahead_y[k]         = y.ahead;
-    q->quadrant[k]        = shift_to_quadrant(x.ahead, y.ahead);
-    q->z[k]               = (float)(r->origin[2] + t * r->direction[2]);
-    q->dz[k]              = (float)(r->direction[2] * scale);
-    q->end[k]             = (float)((next - t) * run) + 2.0F * j->fast->blur;
-    j->queue_from[k]      = t;
-    j->queue_next[k]      = next;
+    runners     *q     = &j->queue;
+    const double run   = hc_fast_run(r);
+    const double scale = 1.0 / run;
+    q->x[k]            = (float)(r->origin[0] + t * r->direction[0] - start[0]);
+    q->y[k]            = (float)(r->origin[1] + t * r->direction[1] - start[1]);
+    q->z[k]            = (float)(r->origin[2] + t * r->direction[2]);
+    q->dx[k]           = (float)(r->direction[0] * scale);
+    q->dy[k]           = (float)(r->direction[1] * scale);
+    q->dz[k]           = (float)(r->direction[2] * scale);
+    q->end[k]          = (float)((next - t) * run) + 2.0F * j->fast->blur;
+    j->queue_from[k]   = t;
+    j->queue_next[k]   = next;
 }
 
 /* Segments from t on until one is to be marched, which is enqueued. */
@@ -224,6 +217,7 @@ static void enqueue_left(job *j)
         (void)take_ray(&r, j->fast, &b, i, &j->rays[which[i]]);
         go_on(j, &r, left[i].t, &left[i]);
     }
+    find_ahead(&j->queue);
 }
 
 /* New rays that need care: periods, open sides. */
@@ -239,6 +233,7 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
         case HC_FAST_MARCHES: go_on(j, &r, r.from, &from); break;
         }
     }
+    find_ahead(&j->queue);
 }
 
 /* Lanes of a batch in the lanes' coordinates, before they are rounded. */
@@ -263,22 +258,9 @@ static ALWAYS_INLINE turned turn_part(const batch *b, int lane)
                      .end = (hc_d_load(b->to + lane) - from) * run };
 }
 
-/* What follows from rates along an axis. Returns which rays go down. */
-static inline unsigned turn_along(float *over, int32_t *ahead, const float *rate)
-{
-    const hc_v     rates = hc_v_load(rate);
-    const unsigned down  = hc_v_greater(hc_v_set(0.0F), rates);
-    const unsigned moves = hc_v_greater(hc_v_abs(rates), hc_v_set(0x1p-60F));
-    const hc_v     most  = hc_v_pick(down, hc_v_set(-0x1p60F), hc_v_set(0x1p60F));
-    hc_v_store(over, hc_v_pick(moves, hc_v_div(hc_v_set(1.0F), rates), most));
-    hc_i_store(ahead, hc_i_pick(down, hc_i_set(0), hc_i_set(1)));
-    return down;
-}
-
 /* A batch in the lanes' coordinates. */
 static inline void turn_batch(runners *q, const hc_fast *fast, const batch *b)
 {
-    const hc_i none = hc_i_set(0);
     for (int lane = 0; lane < HC_LANES; lane += HC_D_BOTH) {
         const turned some = turn_part(b, lane);
         const turned more = turn_part(b, lane + HC_D_MORE);
@@ -290,13 +272,10 @@ static inline void turn_batch(runners *q, const hc_fast *fast, const batch *b)
         hc_d_round(q->dz + lane, some.dz, more.dz);
         hc_d_round(q->end + lane, some.end, more.end);
     }
-    const unsigned left  = turn_along(q->rx, q->ahead_x, q->dx);
-    const unsigned back  = turn_along(q->ry, q->ahead_y, q->dy);
-    const hc_i     along = hc_i_pick(left, hc_i_set(8), none);
-    hc_i_store(q->quadrant, hc_i_or(along, hc_i_pick(back, hc_i_set(16), none)));
+    find_ahead(q);
     hc_v_store(q->end, hc_v_add(hc_v_load(q->end), hc_v_set(2.0F * fast->blur)));
-    hc_i_store(q->steps, none);
-    hc_i_store(q->crossings, none);
+    hc_i_store(q->steps, hc_i_set(0));
+    hc_i_store(q->crossings, hc_i_set(0));
 }
 
 /* Rays that hit nothing, as their way is none. */
@@ -461,10 +440,13 @@ static void take_group(job *j, group *g, const int32_t *which, unsigned all)
     }
     if (marched != all) {
         const unsigned misses = find_misses(b) & all & ~marched;
+        const unsigned others = all & ~marched & ~misses;
         for (unsigned rest = misses; rest != 0; rest &= rest - 1) {
             answer_miss(j, which[__builtin_ctz(rest)], 0, 0);
         }
-        enqueue_one_by_one(j, b, which, all & ~marched & ~misses);
+        if (others != 0) {
+            enqueue_one_by_one(j, b, which, others);
+        }
     }
 }
 

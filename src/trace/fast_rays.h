@@ -18,8 +18,8 @@ typedef struct batch {
     HC_ROW(double) origin[3][HC_LANES];
     double direction[3][HC_LANES], inverse[2][HC_LANES];
     double run[HC_LANES]; /* cells gone sideways per t                 */
-    /* from > to, or `to` is NaN: it cannot hit anything. What cuts a ray stands first in greater()
-     * and lesser(), so that this stays as it is. */
+    /* from > to, or `to` is NaN: it cannot hit anything. What cuts a ray stands first in hc_d_max()
+     * and hc_d_min(), so that this stays as it is. */
     double from[HC_LANES], to[HC_LANES];
 } batch;
 
@@ -39,38 +39,44 @@ static inline unsigned find_good(float columns[HC_ROW_WORDS][HC_LANES])
            & hc_i_differ(hc_i_left(bits, hc_i_set(1)), hc_i_set(0));
 }
 
-/* The parts of their ways on which rays can hit: rows of a batch while they are made. */
+/* Parts of rays' ways, by the times of their ends. */
 typedef struct ways {
     hc_d from, to;
 } ways;
 
-static inline void cut(ways *w, hc_d enter, hc_d leave)
-{
-    w->from = hc_d_max(enter, w->from);
-    w->to   = hc_d_min(leave, w->to);
-}
-
-/* Cut to the field's ends along an unwrapped axis. A ray along them meets them at infinity, or,
- * where it is on one of them, at NaN, which cuts nothing. */
-static inline void cut_sides(ways *w, const hc_fast_axis *a, hc_d origin, hc_d inverse)
+/* Between two walls across an axis. A ray that runs along them comes in and leaves at infinity, or
+ * never; where it is on one of them, at NaN. */
+static inline ways find_slab(hc_d low_wall, hc_d high_wall, hc_d origin, hc_d inverse)
 {
     const hc_d none = hc_d_set(0.0);
-    const hc_d low  = (hc_d_set(a->low) - origin) * inverse;
-    const hc_d high = (hc_d_set(a->high) - origin) * inverse;
-    cut(w, hc_d_if_less(none, inverse, low, high), hc_d_if_less(none, inverse, high, low));
+    const hc_d low  = (low_wall - origin) * inverse;
+    const hc_d high = (high_wall - origin) * inverse;
+    return (ways){ hc_d_if_less(none, inverse, low, high), hc_d_if_less(none, inverse, high, low) };
+}
+
+/* NaN cuts nothing. */
+static inline ways cut(ways w, ways within)
+{
+    return (ways){ hc_d_max(within.from, w.from), hc_d_min(within.to, w.to) };
+}
+
+/* Cut to the field's ends along an unwrapped axis. */
+static inline ways cut_sides(ways w, const hc_fast_axis *a, hc_d origin, hc_d inverse)
+{
+    return cut(w, find_slab(hc_d_set(a->low), hc_d_set(a->high), origin, inverse));
 }
 
 /* Cut to HC_PERIODS_MAX periods of a wrapped axis, from where the ray is at most at height 1. */
-static inline void cut_periods(ways *w, const hc_fast_axis *a, hc_d inverse, hc_d z, hc_d dz)
+static inline ways cut_periods(ways w, const hc_fast_axis *a, hc_d inverse, hc_d z, hc_d dz)
 {
-    const hc_d down  = hc_d_max(w->from, (hc_d_set(1.0) - z) / dz);
-    const hc_d start = hc_d_if_less(dz, hc_d_set(0.0), down, w->from);
+    const hc_d down  = hc_d_max(w.from, (hc_d_set(1.0) - z) / dz);
+    const hc_d start = hc_d_if_less(dz, hc_d_set(0.0), down, w.from);
     const hc_d run   = hc_d_set((double)HC_PERIODS_MAX * a->cells) * hc_d_abs(inverse);
-    w->to            = hc_d_min(start + run, w->to);
+    return (ways){ w.from, hc_d_min(start + run, w.to) };
 }
 
 /* Cut to the heights below the highest sample. */
-static inline void cut_top(ways *w, double highest, hc_d z, hc_d dz)
+static inline ways cut_top(ways w, double highest, hc_d z, hc_d dz)
 {
     const hc_d none   = hc_d_set(0.0);
     const hc_d never  = hc_d_set(INFINITY);
@@ -79,7 +85,7 @@ static inline void cut_top(ways *w, double highest, hc_d z, hc_d dz)
     const hc_d t      = (top - z) / dz;
     const hc_d level  = hc_d_if_less(top, z, never, always);
     const hc_d rising = hc_d_if_less(none, dz, always, level);
-    cut(w, hc_d_if_less(dz, none, t, rising), hc_d_if_less(none, dz, t, never));
+    return cut(w, (ways){ hc_d_if_less(dz, none, t, rising), hc_d_if_less(none, dz, t, never) });
 }
 
 /* Lanes from `lane` on of a batch. */
@@ -100,18 +106,18 @@ static inline void prepare_part(batch *b, int lane, const hc_fast *fast,
     const hc_d last      = hc_d_of_floats(columns[7] + lane);
     ways       w = { hc_d_of_floats(columns[3] + lane), hc_d_min(hc_d_set(HC_FAST_T_MAX), last) };
     if (!fast->x.wrapped) {
-        cut_sides(&w, &fast->x, x, inverse_x);
+        w = cut_sides(w, &fast->x, x, inverse_x);
     }
     if (!fast->y.wrapped) {
-        cut_sides(&w, &fast->y, y, inverse_y);
+        w = cut_sides(w, &fast->y, y, inverse_y);
     }
     if (fast->x.wrapped) {
-        cut_periods(&w, &fast->x, inverse_x, z, dz);
+        w = cut_periods(w, &fast->x, inverse_x, z, dz);
     }
     if (fast->y.wrapped) {
-        cut_periods(&w, &fast->y, inverse_y, z, dz);
+        w = cut_periods(w, &fast->y, inverse_y, z, dz);
     }
-    cut_top(&w, fast->highest + HEADROOM, z, dz);
+    w = cut_top(w, fast->highest + HEADROOM, z, dz);
     hc_d_store(b->origin[0] + lane, x);
     hc_d_store(b->origin[1] + lane, y);
     hc_d_store(b->origin[2] + lane, z);

@@ -196,22 +196,19 @@ static void decide_group(job *j, pack *p)
     unsigned       hits  = v.hit & p->held;
     const unsigned clear = v.clear & p->held & ~hits;
     answer_found(j, &v, hits, p->ray.which, p->ray.steps, p->ray.crossings, true);
-    if (hits == p->held) {
-        p->active &= ~hits;
-        p->held = 0;
-        return;
-    }
     for (unsigned rest = p->held & ~hits & ~clear; rest != 0; rest &= rest - 1) {
         const int      i    = __builtin_ctz(rest);
         const leftover from = { p->ray.which[i], p->ray.steps[i], p->ray.crossings[i], b->from[i] };
         hits |= (unsigned)walk_cells(j, b, i, &from, p->s[i], p->span[i]) << i;
     }
-    const unsigned on    = p->held & ~hits;
-    const hc_v     s     = hc_v_load(p->s);
-    const hc_v     next  = hc_v_pick(clear, hc_v_load(v.s), hc_v_add(s, hc_v_load(p->span)));
-    const hc_i     moves = hc_i_load(p->ray.crossings);
-    hc_v_store(p->s, hc_v_pick(on, next, s));
-    hc_i_store(p->ray.crossings, hc_i_pick(on, hc_i_add(moves, hc_i_set(1)), moves));
+    const unsigned on = p->held & ~hits;
+    if (on != 0) {
+        const hc_v s     = hc_v_load(p->s);
+        const hc_v next  = hc_v_pick(clear, hc_v_load(v.s), hc_v_add(s, hc_v_load(p->span)));
+        const hc_i moves = hc_i_load(p->ray.crossings);
+        hc_v_store(p->s, hc_v_pick(on, next, s));
+        hc_i_store(p->ray.crossings, hc_i_pick(on, hc_i_add(moves, hc_i_set(1)), moves));
+    }
     p->active &= ~hits;
     p->held = 0;
 }
