@@ -179,7 +179,7 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
 /* One step, or one level up or down, of the beams in `active`, which stand *at s on *level. Returns
  * those that go on. */
 static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at, hc_i *level_on,
-                                  unsigned active, unsigned *sinking, ground kind)
+                                  unsigned active, unsigned *sinking, hc_v *until, ground kind)
 {
     const hc_v     s     = *at;
     const hc_v     z     = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
@@ -204,8 +204,9 @@ static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at,
     const hc_v ahead     = hc_v_pick(above, hc_v_add(s, step), s);
     *at                  = ahead;
 
-    const unsigned rises   = clear | (wide & active & ~*sinking);
     const unsigned falls   = fits & ~clear;
+    const unsigned rises   = (clear & ~hc_v_greater(*until, ahead)) | (wide & active & ~*sinking);
+    *until = hc_v_pick(falls, hc_v_add(s, hc_v_add(out, side)), *until);
     const hc_i     last    = hc_i_set(fast->levels - 1);
     const unsigned bottom  = ~hc_i_differ(level, hc_i_set(0));
     const unsigned ceiling = ~hc_i_differ(level, last);
@@ -226,8 +227,9 @@ static inline void march_beams(const hc_fast *fast, beams *b, int count, ground 
     unsigned  sinking = 0;
     hc_v      s       = hc_v_load(b->s); /* not in memory between steps */
     hc_i      level   = hc_i_load(b->level);
+    hc_v      until   = s;
     for (int i = 0; __builtin_popcount(active) > few + i / PATIENCE; i++) {
-        active = step_beams(fast, b, &s, &level, active, &sinking, kind);
+        active = step_beams(fast, b, &s, &level, active, &sinking, &until, kind);
     }
     hc_v_store(b->s, s);
     hc_i_store(b->level, level);
