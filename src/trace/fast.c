@@ -88,6 +88,7 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
         blocks += (size_t)fast->stride[k]
                   * rows_of(hc_fast_block_count(&fast->y, k) + 1, HC_FAST_BLOCK_BITS);
     } while (hc_fast_block_count(longer, k) > COARSEST);
+    fast->plane          = (int32_t)blocks;
     fast->first_level    = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
@@ -114,7 +115,7 @@ static size_t height_bytes(const layout *sizes)
 /* Towers stand behind the blocks, where the last page has room for most of them. */
 static size_t block_bytes(const layout *sizes)
 {
-    return sizes->blocks * sizeof(hc_fast_block) + sizes->towers * sizeof(uint32_t);
+    return 4 * sizes->blocks * sizeof(hc_fast_block) + sizes->towers * sizeof(uint32_t);
 }
 
 size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
@@ -153,7 +154,7 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
         made->lows = (uint32_t *)(made->heights + sizes.heights);
     }
     if (made->blocks != NULL) {
-        hc_fast_place_towers(made, (uint32_t *)(made->blocks + sizes.blocks));
+        hc_fast_place_towers(made, made->blocks + 4 * sizes.blocks);
     }
     hc_result result = made->heights != NULL && made->blocks != NULL
                            ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)

@@ -36,14 +36,15 @@ static ALWAYS_INLINE void ask_for_corners(const hc_fast *fast, const spot *at, i
 }
 
 /* Ask for the finest blocks that cells belong to. */
-static ALWAYS_INLINE void ask_for_blocks(const hc_fast *fast, const spot *at)
+static ALWAYS_INLINE void ask_for_blocks(const hc_fast *fast, const runners *ray, const spot *on)
 {
     int32_t    index[HC_LANES];
     const hc_i bits   = hc_i_set(HC_FAST_BASE_BITS);
     const hc_i stride = hc_i_set(fast->stride[0]);
-    const hc_i x      = hc_i_right(at->i, bits);
-    const hc_i y      = hc_i_right(at->j, bits);
-    hc_i_store(index, index_of(x, y, stride, HC_FAST_BLOCK_BITS));
+    const hc_i x      = hc_i_right(on->i, bits);
+    const hc_i y      = hc_i_right(on->j, bits);
+    const hc_i at     = index_of(x, y, stride, HC_FAST_BLOCK_BITS);
+    hc_i_store(index, hc_i_add(at, hc_i_load(ray->quadrant)));
     for (int i = 0; i < HC_LANES; i++) {
         __builtin_prefetch(fast->blocks + index[i]);
     }
@@ -53,7 +54,7 @@ static ALWAYS_INLINE void ask_for_ground(const hc_fast *fast, const runners *ray
 {
     const spot at = find_spot(fast, ray, s);
     ask_for_corners(fast, &at, 1);
-    ask_for_blocks(fast, &at);
+    ask_for_blocks(fast, ray, &at);
 }
 
 /* Where rays are likely to need the ground: where they begin; those that climb from it also so many

@@ -161,16 +161,14 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
                               const footing *y, hc_i level, unsigned lanes, ground kind)
 {
     const hc_i stride = hc_i_lookup(fast->stride, level);
-    const hc_i start  = hc_i_lookup(fast->start, level);
+    const hc_i start  = hc_i_add(hc_i_lookup(fast->start, level), hc_i_load(b->quadrant));
     cover      all    = { .top = hc_v_set(0.0F) };
     for (int k = 0; k < 4; k++) {
         const hc_i index = hc_i_add(
             index_of(x->block[k & 1], y->block[k >> 1], stride, HC_FAST_BLOCK_BITS), start);
-        hc_i top;
-        hc_i codes;
-        hc_gather_pairs(&top, &codes, fast->blocks, index, lanes);
-        const hc_i code = code_of(codes, b->quadrant);
-        all.top         = k == 0 ? hc_v_of_bits(top) : hc_v_max(all.top, hc_v_of_bits(top));
+        const hc_v top  = hc_v_gather(fast->blocks, index, lanes);
+        const hc_i code = code_of(hc_v_bits(top));
+        all.top         = k == 0 ? top : hc_v_max(all.top, top);
         all.code        = k == 0 ? code : worse_code(all.code, code, kind);
     }
     return all;

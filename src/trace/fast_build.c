@@ -346,7 +346,8 @@ static uint8_t encode(float slope, int shift, int bias, int most)
 
 static uint8_t slope_of(const builder *b, int k, int x, int y, int quadrant)
 {
-    return b->levels[k].blocks[hc_fast_block_at(b->fast, k, x, y)].slopes[quadrant];
+    const size_t at = (size_t)quadrant * (size_t)b->fast->plane + hc_fast_block_at(b->fast, k, x, y);
+    return (uint8_t)(b->levels[k].blocks[at] & HC_FAST_CODE);
 }
 
 /* Steepest of the blocks one level below that stand at the two sides facing the quadrant. */
@@ -369,15 +370,24 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
     return decode(b->sparse, code);
 }
 
+/* The lowest float above `top` that ends with `code`. */
+static hc_fast_block join_block(float top, uint8_t code)
+{
+    uint32_t bits;
+    memcpy(&bits, &top, sizeof bits);
+    const uint32_t below = (bits & ~(uint32_t)HC_FAST_CODE) | code;
+    return below < bits ? below + HC_FAST_CODE + 1 : below;
+}
+
 /* A ray may be up to three blurs from where it is marched: what stands there is seen with this
  * weight from any quadrant. */
 static void store_block(const hc_fast *fast, hc_fast_block *block, float top, const float slopes[4])
 {
     const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
-    block->top           = top + 6.0F * fast->blur * steepest + CLEARANCE;
-    for (int q = 0; q < 4; q++) {
-        block->slopes[q] = encode(slopes[q] + 3.0F * fast->blur * steepest, HC_FAST_SLOPE_SHIFT,
-                                  HC_FAST_SLOPE_BIAS, 255);
+    const float bound    = top + 6.0F * fast->blur * steepest + CLEARANCE;
+    for (int q = 0; q < 4; q++, block += fast->plane) {
+        *block = join_block(bound, encode(slopes[q] + 3.0F * fast->blur * steepest,
+                                          HC_FAST_SLOPE_SHIFT, HC_FAST_SLOPE_BIAS, HC_FAST_CODE));
     }
 }
 
@@ -388,11 +398,11 @@ static void store_sparse(const hc_fast *fast, hc_fast_block *block, float top, b
 {
     const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
     const float wide     = 3.0F * fast->blur;
-    block->top           = top + (open ? fast->least : fast->slack);
-    for (int q = 0; q < 4; q++) {
+    const float bound    = top + (open ? fast->least : fast->slack);
+    for (int q = 0; q < 4; q++, block += fast->plane) {
         const float   slope = open ? slopes[q] * (1.0F + wide) : slopes[q] + wide * steepest;
         const uint8_t code  = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
-        block->slopes[q]    = (uint8_t)(code << HC_FAST_FREE_BITS | (int)ways[q]);
+        *block              = join_block(bound, (uint8_t)(code << HC_FAST_FREE_BITS | (int)ways[q]));
     }
 }
 
@@ -405,6 +415,20 @@ static int stop_free(const builder *b, const float *slopes, const float *ways, i
         stops += ways[i] >= 3.0F && slopes[i] * (ways[i] * BASE) >= high;
     }
     return stops;
+}
+
+/* One more block at the end of a row, and one more row. */
+static void close_row(const builder *b, int y, hc_fast_block *row)
+{
+    const level *l                      = &b->levels[b->current];
+    row[l->width << HC_FAST_BLOCK_BITS] = row[(l->width - 1) << HC_FAST_BLOCK_BITS];
+    if (y == l->height - 1) {
+        hc_fast_block *more = row + hc_fast_block_at(b->fast, b->current, 0, y + 1)
+                              - hc_fast_block_at(b->fast, b->current, 0, y);
+        for (int x = 0; x <= l->width; x++) {
+            more[x << HC_FAST_BLOCK_BITS] = row[x << HC_FAST_BLOCK_BITS];
+        }
+    }
 }
 
 static void block_row(void *context, int y, int worker)
@@ -442,12 +466,8 @@ static void block_row(void *context, int y, int worker)
             }
         }
     }
-    row[l->width << HC_FAST_BLOCK_BITS] = row[(l->width - 1) << HC_FAST_BLOCK_BITS];
-    if (y == l->height - 1) {
-        hc_fast_block *more = l->blocks + hc_fast_block_at(b->fast, k, 0, y + 1);
-        for (int x = 0; x <= l->width; x++) {
-            more[x << HC_FAST_BLOCK_BITS] = row[x << HC_FAST_BLOCK_BITS];
-        }
+    for (int q = 0; q < 4; q++, row += b->fast->plane) {
+        close_row(b, y, row);
     }
     if (k == 0) {
         b->stops[y] = stops;

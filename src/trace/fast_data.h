@@ -17,9 +17,9 @@ enum { HC_FAST_LEVELS = 10, HC_FAST_RATIO_BITS = 2, HC_FAST_BASE_BITS = 1 };
 /* Slopes are floats of five bits exponent and three bits mantissa, from 2^-30 to 3.75. */
 enum { HC_FAST_SLOPE_SHIFT = 20, HC_FAST_SLOPE_BIAS = 97 << 23 };
 
-/* Rows stand together, value by value, so that a cache line is a square: four rows of heights, two
- * of blocks. */
-enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 1 };
+/* Four rows of heights, or of blocks, stand together, value by value, so that a cache line is a
+ * square. */
+enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 2 };
 
 /* Where few things stand on a flat ground a slope is a power of two, four bits from 2^-11 to 2^4,
  * and the other four say how far nothing beyond the block is higher than it: so many times its
@@ -29,12 +29,11 @@ enum { HC_FAST_SPARSE_SHIFT = 23, HC_FAST_SPARSE_BIAS = 116 << 23, HC_FAST_FREE_
 /* Towers are listed by bins of so many cells a side. */
 enum { HC_FAST_BIN = 64 };
 
-/* A block of cells: a bound of the surface on it, and the slopes, quadrant by quadrant (+u +v,
- * -u +v, +u -v, -u -v), within which the surface beyond the block stays below a cone around it. */
-typedef struct hc_fast_block {
-    float   top;
-    uint8_t slopes[4];
-} hc_fast_block;
+/* A block of cells as rays of a quadrant (+u +v, -u +v, +u -v, -u -v) see it: a float above the
+ * surface on it, whose last eight bits are the slope within which the surface beyond the block
+ * stays below a cone around it. */
+typedef uint32_t hc_fast_block;
+enum { HC_FAST_CODE = 0xff };
 
 /* One axis of the cell grid: cell i lies between coordinates i and i + 1. */
 typedef struct hc_fast_axis {
@@ -90,9 +89,11 @@ struct hc_fast {
     int       low_bits, stride_lows, rows_lows;
     uint32_t *lows;
 
-    /* All levels, the finest first: hc_fast_block_at. Each has one more block at the ends of its
-     * rows, and one more row: rays at an edge may be put beyond it. */
+    /* All levels, the finest first: hc_fast_block_at; and so for each quadrant. Each level has one
+     * more block at the ends of its rows, and one more row: rays at an edge may be put beyond
+     * it. */
     int            levels, first_level;   /* where marching begins            */
+    int32_t        plane;                 /* blocks of a quadrant             */
     int32_t        stride[16], start[16]; /* of levels; 16 for one vector register */
     hc_fast_block *blocks;
 
@@ -122,7 +123,7 @@ static inline bool hc_fast_plain(const hc_fast *fast)
     return !fast->steps && !fast->open_sides && !fast->x.wrapped && !fast->y.wrapped;
 }
 
-/* Where the height of a corner stands; where a block does, from the start of its level. */
+/* Where the height of a corner stands; where a block does, from the start of its level on. */
 static inline size_t hc_fast_corner(const hc_fast *fast, int x, int y)
 {
     return (((size_t)(y >> HC_FAST_HEIGHT_BITS) * (size_t)fast->stride_heights + (size_t)x)

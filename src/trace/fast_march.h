@@ -21,7 +21,7 @@ typedef struct runners {
     float   rx[HC_LANES], ry[HC_LANES];               /* 1 / dx, 1 / dy                       */
     float   end[HC_LANES];                            /* s                                    */
     int32_t ahead_x[HC_LANES], ahead_y[HC_LANES];     /* 1: the ray goes up along the axis    */
-    int32_t quadrant[HC_LANES];                       /* bits to shift a slope down           */
+    int32_t quadrant[HC_LANES];                       /* where its blocks stand               */
     int32_t which[HC_LANES];                          /* of the rays                          */
     int32_t steps[HC_LANES], crossings[HC_LANES];
 } runners;
@@ -94,10 +94,9 @@ static inline hc_i index_of(hc_i x, hc_i y, hc_i stride, int bits)
     return hc_i_or(hc_i_left(hc_i_add(row, x), hc_i_set(bits)), rest);
 }
 
-/* The slope of a ray's quadrant, of the four of its block. */
-static inline hc_i code_of(hc_i codes, const int32_t *quadrant)
+static inline hc_i code_of(hc_i block)
 {
-    return hc_i_and(hc_i_right(codes, hc_i_load(quadrant)), hc_i_set(255));
+    return hc_i_and(block, hc_i_set(HC_FAST_CODE));
 }
 
 /* Where lanes stand, and what is known of their blocks. */
@@ -105,7 +104,7 @@ typedef struct standing {
     place at;
     hc_i  level, shift;
     hc_i  block_x, block_y;
-    hc_i  top, codes;
+    hc_i  block;
 } standing;
 
 /* The index that lanes have in common, or -1. */
@@ -116,18 +115,11 @@ static inline int32_t common_index(hc_i index, unsigned lanes)
 }
 
 /* Read once for all lanes where these stand on one block, which is sooner done than gathered. */
-static inline void read_blocks(standing *on, const hc_fast_block *blocks, hc_i index,
-                               unsigned lanes, bool together)
+static inline hc_i read_blocks(const hc_fast_block *blocks, hc_i index, unsigned lanes,
+                               bool together)
 {
     const int32_t one = together ? common_index(index, lanes) : -1;
-    if (one < 0) {
-        hc_gather_pairs(&on->top, &on->codes, blocks, index, lanes);
-        return;
-    }
-    int32_t codes;
-    memcpy(&codes, blocks[one].slopes, sizeof codes);
-    on->top   = hc_v_bits(hc_v_set(blocks[one].top));
-    on->codes = hc_i_set(codes);
+    return one < 0 ? hc_v_bits(hc_v_gather(blocks, index, lanes)) : hc_i_set((int32_t)blocks[one]);
 }
 
 static inline standing find_blocks(const hc_fast *fast, const pack *p, unsigned active)
@@ -139,9 +131,9 @@ static inline standing find_blocks(const hc_fast *fast, const pack *p, unsigned 
     on.block_x       = hc_i_right(on.at.cell_x, on.shift);
     on.block_y       = hc_i_right(on.at.cell_y, on.shift);
     const hc_i row   = hc_i_lookup(fast->stride, on.level);
-    const hc_i start = hc_i_lookup(fast->start, on.level);
+    const hc_i start = hc_i_add(hc_i_lookup(fast->start, on.level), hc_i_load(p->ray.quadrant));
     const hc_i index = index_of(on.block_x, on.block_y, row, HC_FAST_BLOCK_BITS);
-    read_blocks(&on, fast->blocks, hc_i_add(index, start), active, p->together);
+    on.block         = read_blocks(fast->blocks, hc_i_add(index, start), active, p->together);
     return on;
 }
 
@@ -256,8 +248,8 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, const st
     const hc_i         level = on->level;
     const hc_i         shift = on->shift;
     const hc_v         out   = to_leave(fast, p, at, on->block_x, on->block_y, shift);
-    const hc_i         code  = code_of(on->codes, p->ray.quadrant);
-    const hc_v         top   = hc_v_of_bits(on->top);
+    const hc_i         code  = code_of(on->block);
+    const hc_v         top   = hc_v_of_bits(on->block);
     const hc_v         dz    = hc_v_load(p->ray.dz);
     const hc_v         leave = hc_v_about_muladd(out, dz, at->z);
     const hc_v         down  = hc_v_sub(hc_v_set(0.0F), dz);

@@ -14,14 +14,14 @@ static inline bool step_single(const hc_fast *fast, pack *p, ground kind)
 {
     const standing     on    = find_blocks(fast, p, 1);
     const place *const at    = &on.at;
-    const float        top   = hc_v_of_bits(on.top);
+    const float        top   = hc_v_of_bits(on.block);
     const float        down  = -p->ray.dz[0];
     const float        fall  = hc_v_max(down, 0x1p-60F);
     const float        out   = to_leave(fast, p, at, on.block_x, on.block_y, on.shift);
     const float        leave = at->z - out * down;
     p->ray.steps[0]++;
     if (hc_v_min(at->z, leave) > top) {
-        const int32_t code   = code_of(on.codes, p->ray.quadrant);
+        const int32_t code   = code_of(on.block);
         const float   aside  = kind == GROUND_SPARSE ? come_aside(p, &on, out) : 0.0F;
         const float   beyond = go_beyond(fast, code, on.shift, leave - top, down, aside, kind);
         const float   step   = out + beyond;

@@ -145,13 +145,13 @@ static inline unsigned turn_along(float *over, int32_t *ahead, const float *rate
 }
 
 /* What follows from all lanes' rates. */
-static inline void find_ahead(runners *q)
+static inline void find_ahead(runners *q, const hc_fast *fast)
 {
     const hc_i     none  = hc_i_set(0);
     const unsigned left  = turn_along(q->rx, q->ahead_x, q->dx);
     const unsigned back  = turn_along(q->ry, q->ahead_y, q->dy);
-    const hc_i     along = hc_i_pick(left, hc_i_set(8), none);
-    hc_i_store(q->quadrant, hc_i_or(along, hc_i_pick(back, hc_i_set(16), none)));
+    const hc_i     along = hc_i_pick(left, hc_i_set(fast->plane), none);
+    hc_i_store(q->quadrant, hc_i_add(along, hc_i_pick(back, hc_i_set(2 * fast->plane), none)));
 }
 
 /* A segment from t to `next`, in cells from `start`, at place k of the queue; find_ahead() does the
@@ -217,7 +217,7 @@ static void enqueue_left(job *j)
         (void)take_ray(&r, j->fast, &b, i, &j->rays[which[i]]);
         go_on(j, &r, left[i].t, &left[i]);
     }
-    find_ahead(&j->queue);
+    find_ahead(&j->queue, j->fast);
 }
 
 /* New rays that need care: periods, open sides. */
@@ -233,7 +233,7 @@ static void enqueue_one_by_one(job *j, const batch *b, const int32_t *which, uns
         case HC_FAST_MARCHES: go_on(j, &r, r.from, &from); break;
         }
     }
-    find_ahead(&j->queue);
+    find_ahead(&j->queue, j->fast);
 }
 
 /* Lanes of a batch in the lanes' coordinates, before they are rounded. */
@@ -272,7 +272,7 @@ static inline void turn_batch(runners *q, const hc_fast *fast, const batch *b)
         hc_d_round(q->dz + lane, some.dz, more.dz);
         hc_d_round(q->end + lane, some.end, more.end);
     }
-    find_ahead(q);
+    find_ahead(q, fast);
     hc_v_store(q->end, hc_v_add(hc_v_load(q->end), hc_v_set(2.0F * fast->blur)));
     hc_i_store(q->steps, hc_i_set(0));
     hc_i_store(q->crossings, hc_i_set(0));

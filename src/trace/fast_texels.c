@@ -2,8 +2,6 @@
 #include "fast_data.h"
 #include "tracer.h"
 
-#include <string.h>
-
 /* With the one more at the end. */
 static int count_blocks(const hc_fast_axis *axis, int level)
 {
@@ -38,10 +36,12 @@ static void copy_level(uint32_t *texels, const hc_block_map *map, const hc_fast 
         for (int x = 0; x < wide; x++, to += 2) {
             const hc_fast_block *block =
                 fast->blocks + fast->start[k] + hc_fast_block_at(fast, k, x, y);
-            const uint8_t *s = block->slopes;
-            memcpy(to, &block->top, sizeof block->top);
-            to[1] =
-                (uint32_t)s[0] | (uint32_t)s[1] << 8 | (uint32_t)s[2] << 16 | (uint32_t)s[3] << 24;
+            to[0] = 0;
+            to[1] = 0;
+            for (int q = 0; q < 4; q++, block += fast->plane) {
+                to[0] = *block > to[0] ? *block : to[0];
+                to[1] |= (*block & HC_FAST_CODE) << (8 * q);
+            }
         }
     }
 }
