@@ -12,6 +12,7 @@
  * hc_v_about_line    slopes[k] * a + offsets[k], likewise, where k = clamp((bits of a >> shift) -
  *                    first, 0, 15) is the piece of a >= 0 on a scale of powers of two
  * hc_i               sixteen integers of 32 bits; shifts by 0 .. 31, to the right without the sign
+ * hc_v_put           stores a where the bit is set, leaves what stands elsewhere; hc_i_put likewise
  * hc_v_pick          a where the bit is set, b elsewhere; hc_i_pick likewise
  * hc_i_from_v        towards zero
  * hc_v_gather        the word at base + 4 * index where the bit is set, anything elsewhere
@@ -51,6 +52,16 @@ enum { HC_LOOKUPS = 0 };
 static inline hc_v hc_v_lookup(const float *table, hc_i index)
 {
     return hc_v_gather(table, index, (1U << HC_LANES) - 1);
+}
+
+static inline void hc_v_put(float *p, unsigned lanes, hc_v a)
+{
+    hc_v_store(p, hc_v_pick(lanes, a, hc_v_load(p)));
+}
+
+static inline void hc_i_put(int32_t *p, unsigned lanes, hc_i a)
+{
+    hc_i_store(p, hc_i_pick(lanes, a, hc_i_load(p)));
 }
 #endif
 

@@ -122,8 +122,17 @@ HC_I_BINARY(hc_i_max, _mm512_max_epi32)
 HC_I_BINARY(hc_i_and, _mm512_and_si512)
 HC_I_BINARY(hc_i_or, _mm512_or_si512)
 HC_I_BINARY(hc_i_xor, _mm512_xor_si512)
-HC_I_BINARY(hc_i_left, _mm512_sllv_epi32)
-HC_I_BINARY(hc_i_right, _mm512_srlv_epi32)
+
+/* As operators, not as intrinsics: of these gcc knows when all lanes are shifted by one constant. */
+static inline hc_i hc_i_left(hc_i a, hc_i b)
+{
+    return (hc_i)((__v16su)a << (__v16su)b);
+}
+
+static inline hc_i hc_i_right(hc_i a, hc_i b)
+{
+    return (hc_i)((__v16su)a >> (__v16su)b);
+}
 
 static inline hc_i hc_i_from_v(hc_v a)
 {
@@ -148,6 +157,16 @@ static inline hc_v hc_v_pick(unsigned lanes, hc_v a, hc_v b)
 static inline hc_i hc_i_pick(unsigned lanes, hc_i a, hc_i b)
 {
     return _mm512_mask_mov_epi32(b, (__mmask16)lanes, a);
+}
+
+static inline void hc_v_put(float *p, unsigned lanes, hc_v a)
+{
+    _mm512_mask_storeu_ps(p, (__mmask16)lanes, a);
+}
+
+static inline void hc_i_put(int32_t *p, unsigned lanes, hc_i a)
+{
+    _mm512_mask_storeu_epi32(p, (__mmask16)lanes, a);
 }
 
 static inline unsigned hc_i_differ(hc_i a, hc_i b)

@@ -92,6 +92,8 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     fast->first_level    = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
+    fast->window[0] = fast->stride_heights - 8;
+    fast->window[1] = (fast->y.cells - 7) & ~3;
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
                      hc_fast_plan_lows(fast), blocks, hc_fast_plan_towers(fast) };
 }

@@ -80,6 +80,7 @@ struct hc_fast {
 
     /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner */
     int    stride_heights;
+    int    window[2]; /* where the last window of heights begins; -1: there is none */
     float *heights;
 
     /* The lowest heights of squares of 2^low_bits cells a side, in steps of 2^-16 and two in a

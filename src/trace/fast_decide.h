@@ -66,7 +66,7 @@ static inline void read_corners(float out[4][HC_LANES], const hc_fast *fast, con
                                 const int32_t *cell_y)
 {
     const corners h =
-        find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff, NEAR_NOTHING);
+        find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
     store_corners(out, &h);
 }
 

@@ -53,7 +53,7 @@ static void look_before_end(job *j, pack *p)
 {
     p->near &= hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
     if (p->near != 0) {
-        see_near(j, p);
+        see_group(j->fast, p);
     }
 }
 
@@ -67,8 +67,7 @@ static void look_along(job *j, group *const *some, int count)
         for (int i = 0; i < count; i++) {
             pack *p = &some[i]->p;
             if (p->near != 0) {
-                const hc_i steps = hc_i_load(p->ray.steps);
-                hc_i_store(p->ray.steps, hc_i_pick(p->near, hc_i_add(steps, hc_i_set(1)), steps));
+                count_up(p->ray.steps, p->near);
                 look_before_end(j, p);
                 more |= p->near != 0;
             }
@@ -85,6 +84,15 @@ static void look_at_groups(job *j)
 {
     group *some[ABREAST];
     int    count = 0;
+    if (j->fast->ask == HC_FAST_ASK_CLIMBING) {
+    for (int k = 0; k < j->group_count; k++) {
+        group      *g     = j->waiting[k];
+        if (width_of(&j->beams, g->beam, 0.0F) >= LOOKED_AT_WIDTH) {
+            load_group(j, g);
+            ask_for_ground(j->fast, &g->p.ray, hc_v_load(g->p.s));
+        }
+    }
+    }
     for (int k = 0; k < j->group_count; k++) {
         group      *g     = j->waiting[k];
         pack       *p     = &g->p;

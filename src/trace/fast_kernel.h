@@ -76,6 +76,11 @@ static APART void refill(job *j, int slot, unsigned idle)
 
 /* ---- all together ---------------------------------------------------------------------------- */
 
+static APART void see_apart(const hc_fast *fast, pack *p)
+{
+    see_group(fast, p);
+}
+
 static inline void see_to(job *j, int slot)
 {
     pack          *p     = j->packs[slot];
@@ -88,7 +93,11 @@ static inline void see_to(job *j, int slot)
     const unsigned ready  = p->active & ~p->held;
     const int      enough = p->group != NULL ? 1 : j->pace.near;
     if (__builtin_popcount(p->near) >= enough || (p->near != 0 && p->near == ready)) {
-        see_near(j, p);
+        if (p->group != NULL) {
+            see_apart(j->fast, p);
+        } else {
+            see_near(j, p);
+        }
     }
     if (p->group != NULL && p->held != 0 && p->held == p->active) {
         decide_group(j, p);

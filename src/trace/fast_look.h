@@ -24,12 +24,10 @@ enum { WINDOW = 8, WINDOW_ROWS = 1 << HC_FAST_HEIGHT_BITS };
 static inline bool open_window(window *w, const hc_fast *fast, int32_t x, int32_t y)
 {
     enum { BEFORE_X = WINDOW / 2 - 1, BEFORE_Y = 2 }; /* and up to three rows more */
-    const int last_x = fast->stride_heights - WINDOW;
-    const int last_y = (fast->y.cells / WINDOW_ROWS - 1) * WINDOW_ROWS;
-    const int row    = y > BEFORE_Y ? y - BEFORE_Y : 0;
-    w->x             = hc_fast_lesser(x > BEFORE_X ? x - BEFORE_X : 0, last_x);
-    w->y             = hc_fast_lesser(row & ~(WINDOW_ROWS - 1), last_y);
-    if (last_x < 0 || last_y < 0) {
+    const int row = y > BEFORE_Y ? y - BEFORE_Y : 0;
+    w->x          = hc_fast_lesser(x > BEFORE_X ? x - BEFORE_X : 0, fast->window[0]);
+    w->y          = hc_fast_lesser(row & ~(WINDOW_ROWS - 1), fast->window[1]);
+    if ((fast->window[0] | fast->window[1]) < 0) {
         return false;
     }
     w->upper = fast->heights + hc_fast_corner(fast, w->x, w->y);
@@ -47,12 +45,37 @@ static inline hc_v look_up(const window *w, hc_i x, hc_i y)
     return hc_v_pick(low, hc_v_lookup(w->lower, index), hc_v_lookup(w->upper, index));
 }
 
-/* The corners of cells next to each other. False if they are not. */
-static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc_i y,
-                                     unsigned lanes)
+/* What is known of where lanes stand: those of a group on cells next to each other, most often;
+ * those that stay together on one. */
+typedef enum nearness { NEAR_NOTHING, NEAR_EACH_OTHER, NEAR_ONE_CELL } nearness;
+
+/* The corners of a cell, for all lanes. False outside the field. */
+static inline bool find_corners_of(corners *h, const hc_fast *fast, int32_t x, int32_t y)
 {
-    window w;
-    if (!HC_LOOKUPS || !open_window(&w, fast, hc_i_first(x, lanes), hc_i_first(y, lanes))) {
+    if ((uint32_t)x >= (uint32_t)fast->x.cells || (uint32_t)y >= (uint32_t)fast->y.cells) {
+        return false;
+    }
+    const float *const upper = fast->heights + hc_fast_corner(fast, x, y);
+    const float *const lower = fast->heights + hc_fast_corner(fast, x, y + 1);
+    const int          right = 1 << HC_FAST_HEIGHT_BITS;
+    *h = (corners){ hc_v_set(upper[0]), hc_v_set(upper[right]), hc_v_set(lower[0]), hc_v_set(lower[right]) };
+    return true;
+}
+
+/* The corners of cells that are one, or next to each other. False if they are not, or where one is outside the field. */
+static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc_i y,
+                                     unsigned lanes, nearness near)
+{
+    window        w;
+    const int32_t first_x = hc_i_first(x, lanes);
+    const int32_t first_y = hc_i_first(y, lanes);
+    if (near == NEAR_ONE_CELL) {
+    const unsigned others = hc_i_differ(x, hc_i_set(first_x)) | hc_i_differ(y, hc_i_set(first_y));
+    if ((others & lanes) == 0 ) {
+        return find_corners_of(h, fast, first_x, first_y);
+    }
+    }
+    if (!HC_LOOKUPS || !open_window(&w, fast, first_x, first_y)) {
         return false;
     }
     const hc_i one     = hc_i_set(1);
@@ -70,35 +93,12 @@ static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc
     return true;
 }
 
-/* What is known of where lanes stand: those of a group on cells next to each other, most often;
- * those that stay together on one. */
-typedef enum nearness { NEAR_NOTHING, NEAR_EACH_OTHER, NEAR_ONE_CELL } nearness;
-
-static inline nearness nearness_of(const pack *p)
+static inline corners find_corners(const hc_fast *fast, hc_i x, hc_i y, unsigned lanes)
 {
-    return p->together ? NEAR_ONE_CELL : p->group != NULL ? NEAR_EACH_OTHER : NEAR_NOTHING;
-}
-
-static inline corners find_corners(const hc_fast *fast, hc_i x, hc_i y, unsigned lanes,
-                                   nearness near)
-{
-    corners h;
-    if (near == NEAR_EACH_OTHER && find_corners_near(&h, fast, x, y, lanes)) {
-        return h;
-    }
-    const hc_i    stride = hc_i_set(fast->stride_heights);
-    const hc_i    upper  = index_of(x, y, stride, HC_FAST_HEIGHT_BITS);
-    const hc_i    lower  = index_of(x, hc_i_add(y, hc_i_set(1)), stride, HC_FAST_HEIGHT_BITS);
-    const float  *right  = fast->heights + (1 << HC_FAST_HEIGHT_BITS);
-    const int32_t one    = near == NEAR_ONE_CELL ? common_index(upper, lanes) : -1;
-    if (one >= 0) {
-        const int32_t below = hc_i_first(lower, lanes);
-        return (corners){ hc_v_set(fast->heights[one]), hc_v_set(right[one]),
-                          hc_v_set(fast->heights[below]), hc_v_set(right[below]) };
-    }
-    if (near == NEAR_ONE_CELL && find_corners_near(&h, fast, x, y, lanes)) {
-        return h;
-    }
+    const hc_i   stride = hc_i_set(fast->stride_heights);
+    const hc_i   upper  = index_of(x, y, stride, HC_FAST_HEIGHT_BITS);
+    const hc_i   lower  = index_of(x, hc_i_add(y, hc_i_set(1)), stride, HC_FAST_HEIGHT_BITS);
+    const float *right  = fast->heights + (1 << HC_FAST_HEIGHT_BITS);
     return (corners){ hc_v_gather(fast->heights, upper, lanes), hc_v_gather(right, upper, lanes),
                       hc_v_gather(fast->heights, lower, lanes), hc_v_gather(right, lower, lanes) };
 }
@@ -135,7 +135,7 @@ static inline spot find_spot(const hc_fast *fast, const runners *ray, hc_v s)
 static inline hc_v gap_after(const hc_fast *fast, const runners *ray, hc_v s, unsigned lanes)
 {
     const spot    at = find_spot(fast, ray, s);
-    const corners h  = find_corners(fast, at.i, at.j, lanes, NEAR_NOTHING);
+    const corners h  = find_corners(fast, at.i, at.j, lanes);
     const hc_v    u  = hc_v_sub(at.x, hc_v_from_i(at.i));
     const hc_v    v  = hc_v_sub(at.y, hc_v_from_i(at.j));
     return gap_at(&h, u, v, at.z);
@@ -284,13 +284,24 @@ static inline hc_v depth_of(const hc_fast *fast, const pack *p, hc_v slack)
 }
 
 /* Lanes on single cells: which may hit their patch? */
-static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sight *seen)
+static ALWAYS_INLINE void look(const hc_fast *fast, const pack *p, unsigned lanes, nearness near,
+                        sight *seen)
 {
     const place at   = find_place(p);
     const hc_i  fine = hc_i_set(0);
     const hc_v  out  = to_leave(fast, p, &at, at.cell_x, at.cell_y, fine);
-    const hc_i  x_in = keep_inside(at.cell_x, &fast->x);
-    const hc_i  y_in = keep_inside(at.cell_y, &fast->y);
+    hc_i  x_in = at.cell_x;
+    hc_i  y_in = at.cell_y;
+    unsigned outside = 0;
+    corners h;
+    if (near == NEAR_NOTHING || fast->steps || !find_corners_near(&h, fast, x_in, y_in, lanes, near)) {
+    x_in = keep_inside(at.cell_x, &fast->x);
+    y_in = keep_inside(at.cell_y, &fast->y);
+    outside = hc_i_differ(x_in, at.cell_x) | hc_i_differ(y_in, at.cell_y);
+    if (!fast->steps) {
+    h       = find_corners(fast, x_in, y_in, lanes);
+    }
+    }
     seen->span       = out;
     seen->cell_x     = x_in;
     seen->cell_y     = y_in;
@@ -299,8 +310,6 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     if (fast->steps) {
         return;
     }
-    const unsigned outside = hc_i_differ(x_in, at.cell_x) | hc_i_differ(y_in, at.cell_y);
-    const corners  h       = find_corners(fast, x_in, y_in, lanes, nearness_of(p));
     const hc_v     x       = hc_v_sub(at.x, hc_v_from_i(x_in));
     const hc_v     y       = hc_v_sub(at.y, hc_v_from_i(y_in));
     const hc_v     run_x   = hc_v_mul(out, hc_v_load(p->ray.dx));
@@ -313,7 +322,7 @@ static inline void look(const hc_fast *fast, const pack *p, unsigned lanes, sigh
     const hc_v     slack   = slack_at(fast, p, &at, out, &h, lanes);
     seen->patch            = h;
     seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
-    if (p->group == NULL) {
+    if (near == NEAR_NOTHING) {
         const hc_v over  = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
         const hc_v depth = depth_of(fast, p, slack);
         seen->below      = hc_v_greater(hc_v_sub(hc_v_set(0.0F), depth), leave)

@@ -239,6 +239,12 @@ static inline hc_i level_after(const hc_fast *fast, const pack *p, const place *
     return hc_i_pick(left, next, level);
 }
 
+/* One more for those in `lanes`. */
+static inline void count_up(int32_t *counts, unsigned lanes)
+{
+    hc_i_put(counts, lanes, hc_i_add(hc_i_load(counts), hc_i_set(1)));
+}
+
 /* One block further, or one level deeper, for the lanes in `active`, which stand there. Those that
  * stand on a single cell and may hit it become `near`. */
 static inline void march(const hc_fast *fast, pack *p, unsigned active, const standing *on,
@@ -263,22 +269,19 @@ static inline void march(const hc_fast *fast, pack *p, unsigned active, const st
     const hc_v     fall   = hc_v_max(down, hc_v_set(0x1p-60F));
     const hc_v     part   = hc_v_about_over(hc_v_sub(at->z, top), fall);
     const hc_v     step   = hc_v_pick(sinks, part, hc_v_add(out, beyond));
-    hc_v_store(p->s, hc_v_pick(clear | sinks, hc_v_add(at->s, step), at->s));
+    hc_v_put(p->s, clear | sinks, hc_v_add(at->s, step));
 
     const unsigned coarse = hc_i_differ(level, hc_i_set(0));
     const unsigned deeper = active & ~clear & coarse;
     const unsigned near   = active & ~clear & ~coarse;
     const hc_i     next   = level_after(fast, p, at, step, level, shift, kind);
-    hc_v_store(p->until, hc_v_pick(near, hc_v_add(at->s, out), hc_v_load(p->until)));
+    hc_v_put(p->until, near, hc_v_add(at->s, out));
     hc_i_store(p->level,
                hc_i_pick(deeper, hc_i_add(level, hc_i_set(-1)), hc_i_pick(clear, next, level)));
     p->near |= near;
 
-    const hc_i one       = hc_i_set(1);
-    const hc_i steps_now = hc_i_load(p->ray.steps);
-    const hc_i moves     = hc_i_load(p->ray.crossings);
-    hc_i_store(p->ray.steps, hc_i_pick(active, hc_i_add(steps_now, one), steps_now));
-    hc_i_store(p->ray.crossings, hc_i_pick(clear, hc_i_add(moves, one), moves));
+    count_up(p->ray.steps, active);
+    count_up(p->ray.crossings, clear);
 }
 
 #endif

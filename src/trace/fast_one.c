@@ -40,7 +40,7 @@ static inline bool step_single(const hc_fast *fast, pack *p, ground kind)
 static inline bool look_single(const hc_fast *fast, pack *p, sight *seen)
 {
     do {
-        look(fast, p, 1, seen);
+        look(fast, p, 1, NEAR_NOTHING, seen);
         if (seen->clear == 0) {
             return true;
         }

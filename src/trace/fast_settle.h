@@ -216,36 +216,42 @@ static void decide_group(job *j, pack *p)
 /* Lanes of a group wait until none goes on. */
 static void hold(pack *p, const sight *seen, unsigned lanes)
 {
-    const hc_i x    = hc_i_pick(lanes, seen->cell_x, hc_i_load(p->cell_x));
-    const hc_i y    = hc_i_pick(lanes, seen->cell_y, hc_i_load(p->cell_y));
-    const hc_v span = hc_v_pick(lanes, seen->span, hc_v_load(p->span));
-    hc_i_store(p->cell_x, x);
-    hc_i_store(p->cell_y, y);
-    hc_v_store(p->span, span);
-    const corners h = { hc_v_pick(lanes, seen->patch.h00, hc_v_load(p->heights[0])),
-                        hc_v_pick(lanes, seen->patch.h10, hc_v_load(p->heights[1])),
-                        hc_v_pick(lanes, seen->patch.h01, hc_v_load(p->heights[2])),
-                        hc_v_pick(lanes, seen->patch.h11, hc_v_load(p->heights[3])) };
-    store_corners(p->heights, &h);
+    hc_i_put(p->cell_x, lanes, seen->cell_x);
+    hc_i_put(p->cell_y, lanes, seen->cell_y);
+    hc_v_put(p->span, lanes, seen->span);
+    hc_v_put(p->heights[0], lanes, seen->patch.h00);
+    hc_v_put(p->heights[1], lanes, seen->patch.h10);
+    hc_v_put(p->heights[2], lanes, seen->patch.h01);
+    hc_v_put(p->heights[3], lanes, seen->patch.h11);
     p->held |= lanes;
 }
 
-/* The lanes of a pack that stand on single cells. */
-static void see_near(job *j, pack *p)
+/* Lanes that hit nothing on their cells go on to the next ones. */
+static ALWAYS_INLINE void go_on_clear(pack *p, const sight *seen)
+{
+    const hc_v ahead = hc_v_add(hc_v_load(p->s), seen->span);
+    hc_v_put(p->s, seen->clear, ahead);
+    count_up(p->ray.crossings, seen->clear);
+    p->near = seen->clear & hc_v_greater(hc_v_load(p->until), ahead);
+}
+
+/* The lanes of a group that stand on single cells. */
+static ALWAYS_INLINE void see_group(const hc_fast *fast, pack *p)
 {
     sight          seen;
     const unsigned lanes = p->near;
-    look(j->fast, p, lanes, &seen);
-    const hc_v s     = hc_v_load(p->s);
-    const hc_v ahead = hc_v_add(s, seen.span);
-    hc_v_store(p->s, hc_v_pick(seen.clear, ahead, s));
-    const hc_i moves = hc_i_load(p->ray.crossings);
-    hc_i_store(p->ray.crossings, hc_i_pick(seen.clear, hc_i_add(moves, hc_i_set(1)), moves));
-    p->near = seen.clear & hc_v_greater(hc_v_load(p->until), ahead);
-    if (p->group != NULL) {
-        hold(p, &seen, lanes & ~seen.clear);
-        return;
-    }
+    look(fast, p, lanes, p->together ? NEAR_ONE_CELL : NEAR_EACH_OTHER, &seen);
+    go_on_clear(p, &seen);
+    hold(p, &seen, lanes & ~seen.clear);
+}
+
+/* Likewise of rays of any kind. */
+static APART void see_near(job *j, pack *p)
+{
+    sight          seen;
+    const unsigned lanes = p->near;
+    look(j->fast, p, lanes, NEAR_NOTHING, &seen);
+    go_on_clear(p, &seen);
     if (j->answer.any != NULL) {
         answer_any(j, p->ray.which, seen.below);
         p->active &= ~seen.below;
