@@ -108,7 +108,7 @@ typedef struct hc_tracer hc_tracer;
  *
  * Errors: hc_field_check's; HC_ERROR_ARGUMENT: a method without the ratios it needs, a surface the
  * method does not know, a placement that is neither zero nor whole, numbers out of range;
- * HC_ERROR_MEMORY. */
+ * HC_ERROR_LIMIT: fast on more than 2.0 * 10^9 samples; HC_ERROR_MEMORY. */
 HC_API hc_result hc_tracer_create(hc_tracer **tracer, const hc_field *field,
                                   const hc_trace_options *options, hc_log *log);
 HC_API void      hc_tracer_destroy(hc_tracer *tracer);

@@ -19,7 +19,6 @@
  * hc_v_lookup        table[index] of a table of thirty-two: where HC_LOOKUPS is 1, sooner done than
  *                    a gather
  * hc_i_first         of the lanes whose bit is set, of which there is one
- * hc_gather_pairs    two words from base + 8 * index where the bit is set, anything elsewhere
  * hc_pack_lanes      values[i] + add for every set bit i, densely; may write HC_LANES integers even
  *                    if fewer are set; returns how many are; hc_pack_v the lanes of a vector */
 #ifndef HC_BASE_SIMD_H
@@ -53,7 +52,9 @@ static inline hc_v hc_v_lookup(const float *table, hc_i index)
 {
     return hc_v_gather(table, index, (1U << HC_LANES) - 1);
 }
+#endif
 
+#if HC_LANES != 1 && !defined(HC_SIMD_AVX512)
 static inline void hc_v_put(float *p, unsigned lanes, hc_v a)
 {
     hc_v_store(p, hc_v_pick(lanes, a, hc_v_load(p)));

@@ -235,35 +235,4 @@ static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
                    _mm256_mask_i32gather_ps(_mm256_setzero_ps(), base, index.b, high, 4) };
 }
 
-static inline __m256i hc_i_deal8(__m256i low, __m256i high, int odd)
-{
-    const __m256i order = odd != 0 ? _mm256_setr_epi32(1, 3, 5, 7, 1, 3, 5, 7)
-                                   : _mm256_setr_epi32(0, 2, 4, 6, 0, 2, 4, 6);
-    return _mm256_blend_epi32(_mm256_permutevar8x32_epi32(low, order),
-                              _mm256_permutevar8x32_epi32(high, order), 0xf0);
-}
-
-static inline __m256i hc_i_wide4(unsigned lanes)
-{
-    const __m256i bit = _mm256_setr_epi64x(1, 2, 4, 8);
-    return _mm256_cmpeq_epi64(_mm256_and_si256(_mm256_set1_epi64x((long long)lanes), bit), bit);
-}
-
-static inline __m256i hc_gather_pairs4(const void *base, __m128i index, unsigned lanes)
-{
-    return _mm256_mask_i32gather_epi64(_mm256_setzero_si256(), (const long long *)base, index,
-                                       hc_i_wide4(lanes), 8);
-}
-
-static inline void hc_gather_pairs(hc_i *first, hc_i *second, const void *base, hc_i index,
-                                   unsigned lanes)
-{
-    const __m256i q0 = hc_gather_pairs4(base, _mm256_castsi256_si128(index.a), lanes);
-    const __m256i q1 = hc_gather_pairs4(base, _mm256_extracti128_si256(index.a, 1), lanes >> 4);
-    const __m256i q2 = hc_gather_pairs4(base, _mm256_castsi256_si128(index.b), lanes >> 8);
-    const __m256i q3 = hc_gather_pairs4(base, _mm256_extracti128_si256(index.b, 1), lanes >> 12);
-    *first           = (hc_i){ hc_i_deal8(q0, q1, 0), hc_i_deal8(q2, q3, 0) };
-    *second          = (hc_i){ hc_i_deal8(q0, q1, 1), hc_i_deal8(q2, q3, 1) };
-}
-
 #endif

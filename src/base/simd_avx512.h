@@ -123,7 +123,7 @@ HC_I_BINARY(hc_i_and, _mm512_and_si512)
 HC_I_BINARY(hc_i_or, _mm512_or_si512)
 HC_I_BINARY(hc_i_xor, _mm512_xor_si512)
 
-/* As operators, not as intrinsics: of these gcc knows when all lanes are shifted by one constant. */
+/* Operators, not intrinsics: of these gcc knows when one constant shifts all lanes. */
 static inline hc_i hc_i_left(hc_i a, hc_i b)
 {
     return (hc_i)((__v16su)a << (__v16su)b);
@@ -198,26 +198,6 @@ static inline hc_v hc_v_lookup(const float *table, hc_i index)
 static inline hc_v hc_v_gather(const void *base, hc_i index, unsigned lanes)
 {
     return _mm512_mask_i32gather_ps(_mm512_setzero_ps(), (__mmask16)lanes, index, base, 4);
-}
-
-static inline void hc_i_deal(hc_i *first, hc_i *second, __m512i low, __m512i high)
-{
-    const __m512i even =
-        _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
-    const __m512i odd = _mm512_add_epi32(even, _mm512_set1_epi32(1));
-    *first            = _mm512_permutex2var_epi32(low, even, high);
-    *second           = _mm512_permutex2var_epi32(low, odd, high);
-}
-
-static inline void hc_gather_pairs(hc_i *first, hc_i *second, const void *base, hc_i index,
-                                   unsigned lanes)
-{
-    const __m512i zero = _mm512_setzero_si512();
-    const __m256i near = _mm512_castsi512_si256(index);
-    const __m256i far  = _mm512_extracti64x4_epi64(index, 1);
-    const __m512i low  = _mm512_mask_i32gather_epi64(zero, (__mmask8)lanes, near, base, 8);
-    const __m512i high = _mm512_mask_i32gather_epi64(zero, (__mmask8)(lanes >> 8), far, base, 8);
-    hc_i_deal(first, second, low, high);
 }
 
 #pragma GCC diagnostic pop

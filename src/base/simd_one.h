@@ -72,22 +72,25 @@ static inline void hc_i_store(int32_t *p, hc_i a)
     *p = a;
 }
 
+static inline void hc_v_put(float *p, unsigned lanes, hc_v a)
+{
+    if ((lanes & 1) != 0) {
+        *p = a;
+    }
+}
+
+static inline void hc_i_put(int32_t *p, unsigned lanes, hc_i a)
+{
+    if ((lanes & 1) != 0) {
+        *p = a;
+    }
+}
+
 static inline hc_v hc_v_of_bits(hc_i a)
 {
     hc_v r;
     memcpy(&r, &a, sizeof r);
     return r;
-}
-
-static inline void hc_gather_pairs(hc_i *first, hc_i *second, const void *base, hc_i index,
-                                   unsigned lanes)
-{
-    int32_t pair[2] = { 0, 0 };
-    if ((lanes & 1) != 0) {
-        memcpy(pair, (const char *)base + (ptrdiff_t)index * (ptrdiff_t)sizeof pair, sizeof pair);
-    }
-    *first  = pair[0];
-    *second = pair[1];
 }
 
 #endif

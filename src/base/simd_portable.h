@@ -216,18 +216,4 @@ static inline unsigned hc_i_differ(hc_i a, hc_i b)
     return lanes;
 }
 
-static inline void hc_gather_pairs(hc_i *first, hc_i *second, const void *base, hc_i index,
-                                   unsigned lanes)
-{
-    for (int i = 0; i < HC_LANES; i++) {
-        int32_t pair[2] = { 0, 0 };
-        if ((lanes >> i & 1) != 0) {
-            memcpy(pair, (const char *)base + (ptrdiff_t)index.lane[i] * (ptrdiff_t)sizeof pair,
-                   sizeof pair);
-        }
-        first->lane[i]  = pair[0];
-        second->lane[i] = pair[1];
-    }
-}
-
 #endif

@@ -18,8 +18,10 @@ enum { COARSEST = 6 };
 /* Rays begin on this level. */
 enum { FIRST_LEVEL = 1 };
 
+enum { QUADRANTS = 4 };
+
 typedef struct layout {
-    size_t heights, lows, blocks, towers; /* elements, and words */
+    size_t heights, lows, blocks, towers; /* elements, blocks of a quadrant; words */
 } layout;
 
 static hc_fast_axis make_axis(int samples, double period, bool wrapped, bool posts,
@@ -92,8 +94,8 @@ static layout plan(hc_fast *fast, const hc_field *field, const hc_trace_options 
     fast->first_level    = fast->levels > FIRST_LEVEL ? FIRST_LEVEL : fast->levels - 1;
     fast->blur           = 0x1p-21F * (float)longer->cells;
     fast->stride_heights = fast->x.cells + 1;
-    fast->window[0] = fast->stride_heights - 8;
-    fast->window[1] = (fast->y.cells - 7) & ~3;
+    fast->last_window[0] = fast->stride_heights - HC_FAST_WINDOW;
+    fast->last_window[1] = (fast->y.cells + 1 - HC_FAST_WINDOW) & ~((1 << HC_FAST_HEIGHT_BITS) - 1);
     return (layout){ (size_t)fast->stride_heights * rows_of(fast->y.cells + 1, HC_FAST_HEIGHT_BITS),
                      hc_fast_plan_lows(fast), blocks, hc_fast_plan_towers(fast) };
 }
@@ -117,15 +119,22 @@ static size_t height_bytes(const layout *sizes)
 /* Towers stand behind the blocks, where the last page has room for most of them. */
 static size_t block_bytes(const layout *sizes)
 {
-    return 4 * sizes->blocks * sizeof(hc_fast_block) + sizes->towers * sizeof(uint32_t);
+    return QUADRANTS * sizes->blocks * sizeof(hc_fast_block) + sizes->towers * sizeof(uint32_t);
+}
+
+/* Lanes count corners and blocks in 32 bits. */
+static bool fits(const layout *sizes)
+{
+    return sizes->heights <= INT32_MAX && QUADRANTS * sizes->blocks <= INT32_MAX;
 }
 
 size_t hc_fast_bytes(const hc_field *field, const hc_trace_options *options)
 {
     hc_fast      fast;
     const layout sizes = plan(&fast, field, options);
-    return sizeof fast + hc_memory_taken(height_bytes(&sizes))
-           + hc_memory_taken(block_bytes(&sizes));
+    return fits(&sizes) ? sizeof fast + hc_memory_taken(height_bytes(&sizes))
+                              + hc_memory_taken(block_bytes(&sizes))
+                        : 0;
 }
 
 /* By what caches of today hold: up to 3 MiB, 32 MiB. */
@@ -146,17 +155,23 @@ hc_result hc_fast_create(hc_fast **fast, const hc_tracer *tracer, const hc_field
         return hc_fail(log, HC_ERROR_MEMORY, "no memory for a caster");
     }
     const layout sizes = plan(made, field, options);
-    made->tracer       = tracer;
-    made->isa          = hc_isa_resolve(options->isa);
-    made->ask          = find_ask(&sizes);
-    made->highest      = (double)highest_of(field);
-    made->heights      = hc_take_memory(height_bytes(&sizes));
-    made->blocks       = hc_take_memory(block_bytes(&sizes));
+    if (!fits(&sizes)) {
+        free(made);
+        return hc_fail(log, HC_ERROR_LIMIT,
+                       "%d x %d samples are too many for fast: cut the field, or take maxmip",
+                       field->width, field->height);
+    }
+    made->tracer  = tracer;
+    made->isa     = hc_isa_resolve(options->isa);
+    made->ask     = find_ask(&sizes);
+    made->highest = (double)highest_of(field);
+    made->heights = hc_take_memory(height_bytes(&sizes));
+    made->blocks  = hc_take_memory(block_bytes(&sizes));
     if (made->heights != NULL) {
         made->lows = (uint32_t *)(made->heights + sizes.heights);
     }
     if (made->blocks != NULL) {
-        hc_fast_place_towers(made, made->blocks + 4 * sizes.blocks);
+        hc_fast_place_towers(made, made->blocks + QUADRANTS * sizes.blocks);
     }
     hc_result result = made->heights != NULL && made->blocks != NULL
                            ? hc_fast_build(made, field, hc_threads_resolve(options->threads), log)

@@ -174,15 +174,22 @@ static inline cover cover_box(const hc_fast *fast, const beams *b, const footing
     return all;
 }
 
-/* One step, or one level up or down, of the beams in `active`, which stand *at s on *level. Returns
- * those that go on. */
-static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at, hc_i *level_on,
-                                  unsigned active, unsigned *sinking, hc_v *until, ground kind)
+/* Where beams are: s, and on which level; up to which s they stay there, as the blocks of the next
+ * level have just been in the way; which of them came down last. */
+typedef struct stand {
+    hc_v     s, until;
+    hc_i     level;
+    unsigned sinking;
+} stand;
+
+/* One step, or one level up or down, of the beams in `active`. Returns those that go on. */
+static inline unsigned step_beams(const hc_fast *fast, const beams *b, stand *at, unsigned active,
+                                  ground kind)
 {
-    const hc_v     s     = *at;
+    const hc_v     s     = at->s;
     const hc_v     z     = hc_v_about_muladd(s, hc_v_load(b->dz), hc_v_load(b->z));
     const hc_v     down  = hc_v_sub(hc_v_set(0.0F), hc_v_load(b->dz));
-    const hc_i     level = *level_on;
+    const hc_i     level = at->level;
     const hc_i     shift = hc_i_add(hc_i_add(level, level), hc_i_set(HC_FAST_BASE_BITS));
     const footing  x     = find_footing(b, 0, s, shift, fast->x.cells);
     const footing  y     = find_footing(b, 1, s, shift, fast->y.cells);
@@ -200,19 +207,20 @@ static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at,
     const hc_v part      = hc_v_about_over(hc_v_sub(z, c.top), descent);
     const hc_v step      = hc_v_pick(clear, hc_v_add(out, beyond), part);
     const hc_v ahead     = hc_v_pick(above, hc_v_add(s, step), s);
-    *at                  = ahead;
 
+    const unsigned leaves  = clear & ~hc_v_greater(at->until, ahead);
+    const unsigned rises   = leaves | (wide & active & ~at->sinking);
     const unsigned falls   = fits & ~clear;
-    const unsigned rises   = (clear & ~hc_v_greater(*until, ahead)) | (wide & active & ~*sinking);
-    *until = hc_v_pick(falls, hc_v_add(s, hc_v_add(out, side)), *until);
     const hc_i     last    = hc_i_set(fast->levels - 1);
     const unsigned bottom  = ~hc_i_differ(level, hc_i_set(0));
     const unsigned ceiling = ~hc_i_differ(level, last);
     const hc_i     up      = hc_i_pick(rises, hc_i_add(level, hc_i_set(1)), level);
     const hc_i     next    = hc_i_pick(falls & ~bottom, hc_i_add(level, hc_i_set(-1)), up);
-    *level_on              = hc_i_min(next, last);
-    const unsigned stops   = (wide & (*sinking | ceiling)) | (falls & bottom);
-    *sinking               = falls;
+    const unsigned stops   = (wide & (at->sinking | ceiling)) | (falls & bottom);
+    at->s                  = ahead;
+    at->until              = hc_v_pick(falls, hc_v_add(s, hc_v_add(out, side)), at->until);
+    at->level              = hc_i_min(next, last);
+    at->sinking            = falls;
     return active & ~stops & hc_v_greater(hc_v_load(b->end), ahead);
 }
 
@@ -220,17 +228,15 @@ static inline unsigned step_beams(const hc_fast *fast, const beams *b, hc_v *at,
 static inline void march_beams(const hc_fast *fast, beams *b, int count, ground kind)
 {
     enum { FEW = 1, PATIENCE = 32 };
-    const int few     = count > FEW ? FEW : 0;
-    unsigned  active  = (1U << count) - 1;
-    unsigned  sinking = 0;
-    hc_v      s       = hc_v_load(b->s); /* not in memory between steps */
-    hc_i      level   = hc_i_load(b->level);
-    hc_v      until   = s;
+    const int few    = count > FEW ? FEW : 0;
+    unsigned  active = (1U << count) - 1;
+    stand     at     = { .s = hc_v_load(b->s), .level = hc_i_load(b->level) };
+    at.until         = at.s;
     for (int i = 0; __builtin_popcount(active) > few + i / PATIENCE; i++) {
-        active = step_beams(fast, b, &s, &level, active, &sinking, &until, kind);
+        active = step_beams(fast, b, &at, active, kind);
     }
-    hc_v_store(b->s, s);
-    hc_i_store(b->level, level);
+    hc_v_store(b->s, at.s);
+    hc_i_store(b->level, at.level);
 }
 
 #endif

@@ -346,7 +346,8 @@ static uint8_t encode(float slope, int shift, int bias, int most)
 
 static uint8_t slope_of(const builder *b, int k, int x, int y, int quadrant)
 {
-    const size_t at = (size_t)quadrant * (size_t)b->fast->plane + hc_fast_block_at(b->fast, k, x, y);
+    const size_t at =
+        (size_t)quadrant * (size_t)b->fast->plane + hc_fast_block_at(b->fast, k, x, y);
     return (uint8_t)(b->levels[k].blocks[at] & HC_FAST_CODE);
 }
 
@@ -402,7 +403,7 @@ static void store_sparse(const hc_fast *fast, hc_fast_block *block, float top, b
     for (int q = 0; q < 4; q++, block += fast->plane) {
         const float   slope = open ? slopes[q] * (1.0F + wide) : slopes[q] + wide * steepest;
         const uint8_t code  = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
-        *block              = join_block(bound, (uint8_t)(code << HC_FAST_FREE_BITS | (int)ways[q]));
+        *block = join_block(bound, (uint8_t)(code << HC_FAST_FREE_BITS | (int)ways[q]));
     }
 }
 

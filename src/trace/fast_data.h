@@ -26,6 +26,9 @@ enum { HC_FAST_HEIGHT_BITS = 2, HC_FAST_BLOCK_BITS = 2 };
  * side. */
 enum { HC_FAST_SPARSE_SHIFT = 23, HC_FAST_SPARSE_BIAS = 116 << 23, HC_FAST_FREE_BITS = 4 };
 
+/* Heights are read that many rows and columns at once, where rays stand next to each other. */
+enum { HC_FAST_WINDOW = 8 };
+
 /* Towers are listed by bins of so many cells a side. */
 enum { HC_FAST_BIN = 64 };
 
@@ -80,7 +83,7 @@ struct hc_fast {
 
     /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner */
     int    stride_heights;
-    int    window[2]; /* where the last window of heights begins; -1: there is none */
+    int    last_window[2]; /* of heights, HC_FAST_WINDOW a side: where it begins; below 0: none */
     float *heights;
 
     /* The lowest heights of squares of 2^low_bits cells a side, in steps of 2^-16 and two in a

@@ -65,8 +65,7 @@ static inline void store_corners(float out[4][HC_LANES], const corners *h)
 static inline void read_corners(float out[4][HC_LANES], const hc_fast *fast, const int32_t *cell_x,
                                 const int32_t *cell_y)
 {
-    const corners h =
-        find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
+    const corners h = find_corners(fast, hc_i_load(cell_x), hc_i_load(cell_y), 0xffff);
     store_corners(out, &h);
 }
 

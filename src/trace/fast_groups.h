@@ -78,21 +78,25 @@ static void look_along(job *j, group *const *some, int count)
     }
 }
 
+/* Where no cache holds the ground, groups that are too wide to be looked at ask for it from where
+ * their beam has come to; the others' looks come at once. */
+static void ask_for_groups(job *j)
+{
+    for (int k = 0; k < j->group_count; k++) {
+        group *g = j->waiting[k];
+        if (width_of(&j->beams, g->beam, 0.0F) >= LOOKED_AT_WIDTH) {
+            load_group(j, g);
+            ask_for_ground(j->fast, &g->p.ray, hc_v_load(g->p.s));
+        }
+    }
+}
+
 /* Of the groups those that are narrow and have come down to cells, from where their beam has come
  * to. */
 static void look_at_groups(job *j)
 {
     group *some[ABREAST];
     int    count = 0;
-    if (j->fast->ask == HC_FAST_ASK_CLIMBING) {
-    for (int k = 0; k < j->group_count; k++) {
-        group      *g     = j->waiting[k];
-        if (width_of(&j->beams, g->beam, 0.0F) >= LOOKED_AT_WIDTH) {
-            load_group(j, g);
-            ask_for_ground(j->fast, &g->p.ray, hc_v_load(g->p.s));
-        }
-    }
-    }
     for (int k = 0; k < j->group_count; k++) {
         group      *g     = j->waiting[k];
         pack       *p     = &g->p;
@@ -141,6 +145,9 @@ static APART void finish_groups(job *j)
     if (j->fast->towers.listed) {
         glide_groups(j);
     } else {
+        if (j->fast->ask == HC_FAST_ASK_CLIMBING) {
+            ask_for_groups(j);
+        }
         look_at_groups(j);
     }
     for (int k = 0; k < j->group_count; k++) {

@@ -111,19 +111,26 @@ static inline void see_to(job *j, int slot)
     }
 }
 
-/* Not those at the end: how often a ray is marched must not depend on when it is seen to. All
- * blocks are asked for before any is waited for. False if there are none. */
+/* Lanes to be marched. Not those at the end: how often a ray is marched must not depend on when it
+ * is seen to. */
+static inline unsigned find_ready(const pack *p)
+{
+    const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
+    return p->active & ~p->near & ~p->held & before;
+}
+
+/* All blocks are asked for before any is waited for. False if there are none. */
 static inline bool march_all(job *j, ground kind)
 {
     standing on[PACKS];
     unsigned ready[PACKS];
     unsigned some = 0;
     for (int k = 0; k < PACKS; k++) {
-        const pack    *p      = j->packs[k];
-        const unsigned before = hc_v_greater(hc_v_load(p->ray.end), hc_v_load(p->s));
-        ready[k]              = p->active & ~p->near & ~p->held & before;
-        if (ready[k] != 0) { /* of a single ray's packs, one */
-            on[k] = find_blocks(j->fast, p, ready[k]);
+        ready[k] = find_ready(j->packs[k]);
+        if (ready[k] != 0) {
+            on[k] = find_blocks(j->fast, j->packs[k], ready[k]);
+        } else if (PACKS == 1) {
+            return false;
         }
         some |= ready[k];
     }

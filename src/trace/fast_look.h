@@ -17,17 +17,17 @@ typedef struct window {
     const float *upper, *lower; /* four rows each: value by value, and so a table of thirty-two */
 } window;
 
-enum { WINDOW = 8, WINDOW_ROWS = 1 << HC_FAST_HEIGHT_BITS };
+enum { WINDOW_ROWS = 1 << HC_FAST_HEIGHT_BITS };
 
 /* With a cell in its middle, as far as the field and the rows that stand together let it. False in
  * fields that are smaller. */
 static inline bool open_window(window *w, const hc_fast *fast, int32_t x, int32_t y)
 {
-    enum { BEFORE_X = WINDOW / 2 - 1, BEFORE_Y = 2 }; /* and up to three rows more */
+    enum { BEFORE_X = HC_FAST_WINDOW / 2 - 1, BEFORE_Y = 2 }; /* and up to three rows more */
     const int row = y > BEFORE_Y ? y - BEFORE_Y : 0;
-    w->x          = hc_fast_lesser(x > BEFORE_X ? x - BEFORE_X : 0, fast->window[0]);
-    w->y          = hc_fast_lesser(row & ~(WINDOW_ROWS - 1), fast->window[1]);
-    if ((fast->window[0] | fast->window[1]) < 0) {
+    w->x          = hc_fast_lesser(x > BEFORE_X ? x - BEFORE_X : 0, fast->last_window[0]);
+    w->y          = hc_fast_lesser(row & ~(WINDOW_ROWS - 1), fast->last_window[1]);
+    if ((fast->last_window[0] | fast->last_window[1]) < 0) {
         return false;
     }
     w->upper = fast->heights + hc_fast_corner(fast, w->x, w->y);
@@ -58,11 +58,13 @@ static inline bool find_corners_of(corners *h, const hc_fast *fast, int32_t x, i
     const float *const upper = fast->heights + hc_fast_corner(fast, x, y);
     const float *const lower = fast->heights + hc_fast_corner(fast, x, y + 1);
     const int          right = 1 << HC_FAST_HEIGHT_BITS;
-    *h = (corners){ hc_v_set(upper[0]), hc_v_set(upper[right]), hc_v_set(lower[0]), hc_v_set(lower[right]) };
+    *h = (corners){ hc_v_set(upper[0]), hc_v_set(upper[right]), hc_v_set(lower[0]),
+                    hc_v_set(lower[right]) };
     return true;
 }
 
-/* The corners of cells that are one, or next to each other. False if they are not, or where one is outside the field. */
+/* The corners of cells that are one, or next to each other. False if they are not, or if one is
+ * outside the field. */
 static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc_i y,
                                      unsigned lanes, nearness near)
 {
@@ -70,10 +72,11 @@ static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc
     const int32_t first_x = hc_i_first(x, lanes);
     const int32_t first_y = hc_i_first(y, lanes);
     if (near == NEAR_ONE_CELL) {
-    const unsigned others = hc_i_differ(x, hc_i_set(first_x)) | hc_i_differ(y, hc_i_set(first_y));
-    if ((others & lanes) == 0 ) {
-        return find_corners_of(h, fast, first_x, first_y);
-    }
+        const unsigned on_x = ~hc_i_differ(x, hc_i_set(first_x));
+        const unsigned on_y = ~hc_i_differ(y, hc_i_set(first_y));
+        if ((lanes & ~(on_x & on_y)) == 0) {
+            return find_corners_of(h, fast, first_x, first_y);
+        }
     }
     if (!HC_LOOKUPS || !open_window(&w, fast, first_x, first_y)) {
         return false;
@@ -84,7 +87,7 @@ static inline bool find_corners_near(corners *h, const hc_fast *fast, hc_i x, hc
     const hc_i right   = hc_i_add(left, one);
     const hc_i below   = hc_i_add(above, one);
     const hc_i all     = hc_i_or(hc_i_or(left, right), hc_i_or(above, below));
-    const hc_i outside = hc_i_and(all, hc_i_set(~(WINDOW - 1)));
+    const hc_i outside = hc_i_and(all, hc_i_set(~(HC_FAST_WINDOW - 1)));
     if ((hc_i_differ(outside, hc_i_set(0)) & lanes) != 0) {
         return false;
     }
@@ -283,50 +286,55 @@ static inline hc_v depth_of(const hc_fast *fast, const pack *p, hc_v slack)
     return hc_v_about_muladd(fall, hc_v_set(3.0F * fast->blur), slack);
 }
 
+/* The cells that lanes stand on, and their corners; on steps there are none. Returns the lanes that
+ * are in the field; others are given the cell next to them. */
+static ALWAYS_INLINE unsigned find_cells(sight *seen, const hc_fast *fast, const place *at,
+                                         unsigned lanes, nearness near)
+{
+    seen->cell_x = at->cell_x;
+    seen->cell_y = at->cell_y;
+    if (near != NEAR_NOTHING
+        && find_corners_near(&seen->patch, fast, at->cell_x, at->cell_y, lanes, near)) {
+        return lanes;
+    }
+    seen->cell_x = keep_inside(at->cell_x, &fast->x);
+    seen->cell_y = keep_inside(at->cell_y, &fast->y);
+    seen->patch  = fast->steps ? (corners){ .h00 = hc_v_set(0.0F) }
+                               : find_corners(fast, seen->cell_x, seen->cell_y, lanes);
+    return lanes & ~hc_i_differ(seen->cell_x, at->cell_x) & ~hc_i_differ(seen->cell_y, at->cell_y);
+}
+
 /* Lanes on single cells: which may hit their patch? */
 static ALWAYS_INLINE void look(const hc_fast *fast, const pack *p, unsigned lanes, nearness near,
-                        sight *seen)
+                               sight *seen)
 {
-    const place at   = find_place(p);
-    const hc_i  fine = hc_i_set(0);
-    const hc_v  out  = to_leave(fast, p, &at, at.cell_x, at.cell_y, fine);
-    hc_i  x_in = at.cell_x;
-    hc_i  y_in = at.cell_y;
-    unsigned outside = 0;
-    corners h;
-    if (near == NEAR_NOTHING || fast->steps || !find_corners_near(&h, fast, x_in, y_in, lanes, near)) {
-    x_in = keep_inside(at.cell_x, &fast->x);
-    y_in = keep_inside(at.cell_y, &fast->y);
-    outside = hc_i_differ(x_in, at.cell_x) | hc_i_differ(y_in, at.cell_y);
-    if (!fast->steps) {
-    h       = find_corners(fast, x_in, y_in, lanes);
-    }
-    }
-    seen->span       = out;
-    seen->cell_x     = x_in;
-    seen->cell_y     = y_in;
-    seen->clear      = 0;
-    seen->below      = 0;
+    const place at        = find_place(p);
+    const hc_i  fine      = hc_i_set(0);
+    const hc_v  out       = to_leave(fast, p, &at, at.cell_x, at.cell_y, fine);
+    seen->span            = out;
+    seen->clear           = 0;
+    seen->below           = 0;
+    const unsigned inside = find_cells(seen, fast, &at, lanes, near);
     if (fast->steps) {
         return;
     }
-    const hc_v     x       = hc_v_sub(at.x, hc_v_from_i(x_in));
-    const hc_v     y       = hc_v_sub(at.y, hc_v_from_i(y_in));
-    const hc_v     run_x   = hc_v_mul(out, hc_v_load(p->ray.dx));
-    const hc_v     run_y   = hc_v_mul(out, hc_v_load(p->ray.dy));
-    const hc_v     enter   = gap_at(&h, x, y, at.z);
-    const hc_v     leave   = gap_at(&h, hc_v_add(x, run_x), hc_v_add(y, run_y),
-                                    hc_v_about_muladd(out, hc_v_load(p->ray.dz), at.z));
-    const hc_v     twist   = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
-    const hc_v     sag     = hc_v_sub(hc_v_set(0.0F), hc_v_mul(twist, hc_v_mul(run_x, run_y)));
-    const hc_v     slack   = slack_at(fast, p, &at, out, &h, lanes);
-    seen->patch            = h;
-    seen->clear            = stay_above(enter, leave, sag, slack) & lanes & ~outside;
+    const corners h     = seen->patch;
+    const hc_v    x     = hc_v_sub(at.x, hc_v_from_i(seen->cell_x));
+    const hc_v    y     = hc_v_sub(at.y, hc_v_from_i(seen->cell_y));
+    const hc_v    run_x = hc_v_mul(out, hc_v_load(p->ray.dx));
+    const hc_v    run_y = hc_v_mul(out, hc_v_load(p->ray.dy));
+    const hc_v    enter = gap_at(&h, x, y, at.z);
+    const hc_v    leave = gap_at(&h, hc_v_add(x, run_x), hc_v_add(y, run_y),
+                                 hc_v_about_muladd(out, hc_v_load(p->ray.dz), at.z));
+    const hc_v    twist = hc_v_sub(hc_v_add(h.h00, h.h11), hc_v_add(h.h10, h.h01));
+    const hc_v    sag   = hc_v_sub(hc_v_set(0.0F), hc_v_mul(twist, hc_v_mul(run_x, run_y)));
+    const hc_v    slack = slack_at(fast, p, &at, out, &h, lanes);
+    seen->clear         = stay_above(enter, leave, sag, slack) & inside;
     if (near == NEAR_NOTHING) {
         const hc_v over  = hc_v_sub(hc_v_load(p->ray.end), hc_v_set(4.0F * fast->blur));
         const hc_v depth = depth_of(fast, p, slack);
         seen->below      = hc_v_greater(hc_v_sub(hc_v_set(0.0F), depth), leave)
-                      & hc_v_greater(over, hc_v_add(at.s, out)) & lanes & ~outside;
+                      & hc_v_greater(over, hc_v_add(at.s, out)) & inside;
     }
 }
 

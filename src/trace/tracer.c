@@ -174,8 +174,11 @@ size_t hc_tracer_bytes(const hc_field *field, const hc_trace_options *options)
     if (hc_field_check(field, NULL) != HC_OK || check_options(given, NULL) != HC_OK) {
         return 0;
     }
-    const size_t fast = given->method == HC_TRACE_FAST ? hc_fast_bytes(field, given) : 0;
-    return sizeof(hc_tracer) + bounds_bytes(field, given) + fast;
+    if (given->method == HC_TRACE_FAST) {
+        const size_t bytes = hc_fast_bytes(field, given);
+        return bytes != 0 ? sizeof(hc_tracer) + bytes : 0;
+    }
+    return sizeof(hc_tracer) + bounds_bytes(field, given);
 }
 
 const hc_pyramid *hc_tracer_bounds(const hc_tracer *tracer)
