@@ -371,7 +371,7 @@ static float child_slope(const builder *b, int k, int x, int y, int quadrant)
     return decode(b->sparse, code);
 }
 
-/* The lowest float above `top` that ends with `code`. */
+/* The lowest float of at least `top` that ends with `code`. */
 static hc_fast_block join_block(float top, uint8_t code)
 {
     uint32_t bits;

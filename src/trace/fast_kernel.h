@@ -65,9 +65,9 @@ static APART void refill(job *j, int slot, unsigned idle)
         if (!j->plain) {
             hc_spread_doubles(p->next, lanes, j->queue_next + j->next);
         }
-        hc_v_store(p->s, hc_v_pick(lanes, hc_v_set(0.0F), hc_v_load(p->s)));
-        hc_v_store(p->again, hc_v_pick(lanes, hc_v_set(-1.0F), hc_v_load(p->again)));
-        hc_i_store(p->level, hc_i_pick(lanes, hc_i_set(j->fast->first_level), hc_i_load(p->level)));
+        hc_v_put(p->s, lanes, hc_v_set(0.0F));
+        hc_v_put(p->again, lanes, hc_v_set(-1.0F));
+        hc_i_put(p->level, lanes, hc_i_set(j->fast->first_level));
         j->next += __builtin_popcount(lanes);
         p->active |= lanes;
         idle &= ~lanes;

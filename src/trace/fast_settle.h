@@ -203,11 +203,9 @@ static void decide_group(job *j, pack *p)
     }
     const unsigned on = p->held & ~hits;
     if (on != 0) {
-        const hc_v s     = hc_v_load(p->s);
-        const hc_v next  = hc_v_pick(clear, hc_v_load(v.s), hc_v_add(s, hc_v_load(p->span)));
-        const hc_i moves = hc_i_load(p->ray.crossings);
-        hc_v_store(p->s, hc_v_pick(on, next, s));
-        hc_i_store(p->ray.crossings, hc_i_pick(on, hc_i_add(moves, hc_i_set(1)), moves));
+        const hc_v ahead = hc_v_add(hc_v_load(p->s), hc_v_load(p->span));
+        hc_v_put(p->s, on, hc_v_pick(clear, hc_v_load(v.s), ahead));
+        count_up(p->ray.crossings, on);
     }
     p->active &= ~hits;
     p->held = 0;
@@ -286,8 +284,8 @@ static inline void glide_on(job *j, pack *p)
     const hc_v    past = hc_v_add(l.s, hc_v_set(GLIDE_AFTER));
     const hc_v    next = hc_v_pick(l.above, past, hc_v_set(INFINITY));
     hc_v_store(p->s, l.s);
-    hc_v_store(p->again, hc_v_pick(off, next, again));
-    hc_v_store(p->until, hc_v_pick(l.above, l.s, hc_v_load(p->until)));
+    hc_v_put(p->again, off, next);
+    hc_v_put(p->until, l.above, l.s);
     p->near |= l.above;
 }
 
