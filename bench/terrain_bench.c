@@ -85,9 +85,12 @@ static hc_result bake(job *j)
                                       .method  = relaxed ? HC_METHOD_FALLING_EDGE : HC_METHOD_EXACT,
                                       .threads = j->options->plan.threads,
                                       .progress = { .report = go_on, .user = j } };
-    return needs == HC_NEEDS_NOTHING
-               ? HC_OK
-               : hc_bench_bake_ratios(&j->ratios, &j->field, &options, cells, j->log);
+    if (needs == HC_NEEDS_NOTHING) {
+        return HC_OK;
+    }
+    const hc_result result = hc_bench_bake_ratios(&j->ratios, &j->field, &options, cells, j->log);
+    /* Other threads may do all of it before the one that reports is asked. */
+    return result == HC_OK && is_over(j) ? HC_ERROR_CANCELLED : result;
 }
 
 static hc_trace_options trace_of(const job *j)
