@@ -152,6 +152,9 @@ static APART void finish_groups(job *j)
     }
     for (int k = 0; k < j->group_count; k++) {
         group *g = j->waiting[k];
+        if (g->begun) {
+            leave_stragglers(j, &g->p);
+        }
         if (g->begun && g->p.held != 0 && g->p.held == g->p.active) {
             ready[ready_count++] = g;
         } else {

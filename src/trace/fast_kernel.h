@@ -17,10 +17,27 @@ static const pace single = { .near = 1, .done = 1, .rounds = 4, .few_rounds = 4 
 static inline bool has_more(const job *j)
 {
     return j->next != j->queued || has_new(j) || j->next_group != j->group_count
-           || j->left_count != 0;
+           || j->left_count != 0 || j->stragglers.rays.count != 0;
 }
 
-/* Give idle lanes of a pack rays from the queue; where all are, a group may take their place. */
+/* Stragglers fill idle lanes beside others, but have lanes for themselves only if there are enough of
+ * them, or nothing else is left. */
+static inline bool calls_back(const job *j, const pack *p)
+{
+    const int  count = j->stragglers.rays.count;
+    const bool last  = j->next_group == j->group_count && !has_new(j);
+    return count >= HC_LANES || (count > 0 && (p->active != 0 || last));
+}
+
+/* A pack of rays of any kind of which few go on, while groups wait and nothing else fills it. */
+static inline bool gives_way(const job *j, const pack *p)
+{
+    return p->active != 0 && j->next_group != j->group_count && j->next == j->queued
+           && are_few(j, p->active & ~p->held);
+}
+
+/* Give idle lanes of a pack rays from the queue, or stragglers; where all are, a group may take their
+ * place. */
 static APART void refill(job *j, int slot, unsigned idle)
 {
     pack *p = j->packs[slot];
@@ -35,6 +52,9 @@ static APART void refill(job *j, int slot, unsigned idle)
             j->queued = 0;
             if (j->left_count > 0) {
                 enqueue_left(j);
+            } else if (calls_back(j, p)) {
+                idle = call_back(&j->stragglers, p, idle);
+                continue;
             } else if (j->next_group < j->group_count) {
                 if (p->active == 0) {
                     group *g = j->waiting[j->next_group++];
@@ -52,24 +72,15 @@ static APART void refill(job *j, int slot, unsigned idle)
                 return;
             }
         }
-        unsigned lanes = idle;
-        while (__builtin_popcount(lanes) > j->queued - j->next) {
-            lanes &= ~(1U << (31 - __builtin_clz(lanes)));
-        }
-        for (int k = 0; k < RUNNER_WORDS; k++) {
-            const size_t row = (size_t)k * HC_LANES * sizeof(int32_t);
-            hc_spread_words((char *)&p->ray + row, lanes,
-                            (const char *)&j->queue + row + (size_t)j->next * sizeof(int32_t));
-        }
-        hc_spread_doubles(p->from, lanes, j->queue_from + j->next);
+        const unsigned lanes = choose_lanes(idle, j->queued - j->next);
+        spread_rays(p, lanes, (const int32_t *)&j->queue + j->next, HC_LANES * sizeof(int32_t),
+                    j->queue_from + j->next);
         if (!j->plain) {
             hc_spread_doubles(p->next, lanes, j->queue_next + j->next);
         }
         hc_v_put(p->s, lanes, hc_v_set(0.0F));
-        hc_v_put(p->again, lanes, hc_v_set(-1.0F));
         hc_i_put(p->level, lanes, hc_i_set(j->fast->first_level));
         j->next += __builtin_popcount(lanes);
-        p->active |= lanes;
         idle &= ~lanes;
     }
 }
@@ -99,8 +110,13 @@ static inline void see_to(job *j, int slot)
             see_near(j, p);
         }
     }
-    if (p->group != NULL && p->held != 0 && p->held == p->active) {
-        decide_group(j, p);
+    if (p->group != NULL) {
+        leave_stragglers(j, p);
+        if (p->held != 0 && p->held == p->active) {
+            decide_group(j, p);
+        }
+    } else if (gives_way(j, p)) {
+        break_up(j, p, p->active & ~p->held);
     }
     const unsigned idle = ~p->active & ALL_LANES;
     if (__builtin_popcount(idle) >= (p->group != NULL ? HC_LANES : j->pace.done) && has_more(j)) {
@@ -162,15 +178,16 @@ static inline unsigned busy_lanes(const job *j)
 /* Idle lanes are computed too. */
 static void start(job *j)
 {
-    j->taken          = 0;
-    j->queued         = 0;
-    j->next           = 0;
-    j->left_count     = 0;
-    j->trials.count   = 0;
-    j->group_count    = 0;
-    j->next_group     = 0;
-    j->used           = 0;
-    j->suspects.count = 0;
+    j->taken                 = 0;
+    j->queued                = 0;
+    j->next                  = 0;
+    j->left_count            = 0;
+    j->trials.count          = 0;
+    j->group_count           = 0;
+    j->next_group            = 0;
+    j->used                  = 0;
+    j->suspects.count        = 0;
+    j->stragglers.rays.count = 0;
     memset(j->suspects.words, 0, sizeof j->suspects.words);
     memset(&j->beams, 0, sizeof j->beams);
     for (int k = 0; k < PACKS; k++) {

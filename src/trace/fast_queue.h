@@ -7,6 +7,7 @@
 
 #include "fast_ask.h"
 #include "fast_beams.h"
+#include "fast_crowd.h"
 #include "fast_decide.h"
 #include "fast_towers.h"
 
@@ -40,15 +41,12 @@ typedef struct pace {
     int near, done, rounds, few_rounds;
 } pace;
 
-/* Rays that ask for any hit and have been looked at in the first places, until sixteen of them are
- * looked at in the others. Rows as of runners, twice as long: sixteen may join. */
-typedef struct suspects {
-    HC_ROW(int32_t) words[RUNNER_WORDS][2 * HC_LANES];
-    double from[2 * HC_LANES + HC_LANES];
-    int    count;
-} suspects;
-
+/* How many places rays that ask for any hit are looked at in, before sixteen of those that are left
+ * are looked at in the others. */
 enum { FIRST_PLACES = 5 };
+
+/* So few lanes of a pack do not go on by themselves. */
+enum { FEW_LANES = 6 };
 
 typedef struct job {
     const hc_fast *fast;
@@ -60,7 +58,8 @@ typedef struct job {
     runners        queue; /* rays ready for lanes */
     double         queue_from[2 * HC_LANES], queue_next[2 * HC_LANES];
     int            queued, next;
-    suspects       suspects;
+    crowd          suspects; /* that have been looked at in the first places */
+    stragglers     stragglers;
     trials         trials;
     leftover       left[LEFT_MAX];
     int            left_count;
@@ -294,15 +293,6 @@ static unsigned find_marched(const runners *q)
     return hc_v_greater(hc_v_load(q->end), hc_v_set(MARCH_FROM));
 }
 
-/* The words of sixteen rays into rows so many bytes apart. */
-static inline void pack_rays(void *to, size_t pitch, const runners *rays, unsigned lanes)
-{
-    for (size_t k = 0; k < RUNNER_WORDS; k++) {
-        const char *row = (const char *)rays + k * HC_LANES * sizeof(int32_t);
-        hc_pack_words((char *)to + k * pitch, lanes, row);
-    }
-}
-
 /* Rays that start at `from`, for any lanes. */
 static void enqueue_rays(job *j, const runners *rays, const double *from, unsigned lanes)
 {
@@ -349,29 +339,26 @@ static bool join_group(job *j, group *g)
     return true;
 }
 
-/* The first sixteen suspects, or all: those that no place finds are to be marched. */
+/* The last sixteen suspects, or all: those that no place finds are to be marched. */
 static void search_suspects(job *j)
 {
-    suspects      *s     = &j->suspects;
+    crowd         *s     = &j->suspects;
     const int      count = s->count < HC_LANES ? s->count : HC_LANES;
     const unsigned all   = ALL_LANES >> (HC_LANES - count);
     runners        rays;
+    s->count -= count;
     for (int k = 0; k < RUNNER_WORDS; k++) {
-        hc_i_store((int32_t *)&rays + k * HC_LANES, hc_i_load(s->words[k]));
-        hc_i_store(s->words[k], hc_i_load(s->words[k] + HC_LANES));
+        hc_i_store((int32_t *)&rays + k * HC_LANES, hc_i_load(s->words[k] + s->count));
     }
     const unsigned below = probe_lows(j->fast, &rays, all, FIRST_PLACES, PLACES);
     answer_any(j, rays.which, below);
-    enqueue_rays(j, &rays, s->from, all & ~below);
-    memcpy(s->from, s->from + HC_LANES, HC_LANES * sizeof *s->from);
-    s->count -= count;
+    enqueue_rays(j, &rays, s->from + s->count, all & ~below);
 }
 
 /* Rays that ask for any hit. Where the first places find none of sixteen, as under the open sky,
  * the others are left out. */
 static void suspect(job *j, const runners *rays, const double *from, unsigned lanes)
 {
-    suspects      *s     = &j->suspects;
     const unsigned below = probe_lows(j->fast, rays, lanes, 0, FIRST_PLACES);
     const unsigned rest  = lanes & ~below;
     answer_any(j, rays->which, below);
@@ -379,10 +366,8 @@ static void suspect(job *j, const runners *rays, const double *from, unsigned la
         enqueue_rays(j, rays, from, rest);
         return;
     }
-    pack_rays(s->words[0] + s->count, sizeof s->words[0], rays, rest);
-    hc_pack_doubles(s->from + s->count, rest, from);
-    s->count += __builtin_popcount(rest);
-    if (s->count >= HC_LANES) {
+    join_crowd(&j->suspects, rays, from, rest);
+    if (j->suspects.count >= HC_LANES) {
         search_suspects(j);
     }
 }

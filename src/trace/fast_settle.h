@@ -270,6 +270,36 @@ static APART void see_near(job *j, pack *p)
     }
 }
 
+/* Lanes so few that they had better go on among those of other groups: a pack takes as long for one
+ * as for sixteen. Over towers they do not go on for long. */
+static inline bool are_few(const job *j, unsigned lanes)
+{
+    return !j->fast->sparse && __builtin_popcount(lanes) <= FEW_LANES
+           && j->stragglers.rays.count <= CROWD - HC_LANES;
+}
+
+/* Of a group whose other lanes are done, or wait. */
+static inline void leave_stragglers(job *j, pack *p)
+{
+    const unsigned ahead = p->active & ~p->held;
+    if (ahead != 0 && are_few(j, ahead)) {
+        set_aside(&j->stragglers, p, ahead, p->group->b.from);
+    }
+}
+
+/* A pack of rays of any kind gives way to a group: its trials do without it. */
+static APART void break_up(job *j, pack *p, unsigned ahead)
+{
+    const int32_t first = (int32_t)(p - j->own) * HC_LANES;
+    set_aside(&j->stragglers, p, ahead, p->from);
+    for (int i = 0; i < j->trials.count; i++) {
+        const bool its    = j->trials.lane[i] >= first && j->trials.lane[i] < first + HC_LANES;
+        j->trials.lane[i] = its ? -1 : j->trials.lane[i];
+    }
+    p->active = 0;
+    p->held   = 0;
+}
+
 /* Lanes that have just begun, or have come past what stopped them. What stops them now stands in
  * the cell that they have come to. */
 static inline void glide_on(job *j, pack *p)
