@@ -20,8 +20,8 @@ static inline bool has_more(const job *j)
            || j->left_count != 0 || j->stragglers.rays.count != 0;
 }
 
-/* Stragglers fill idle lanes beside others, but have lanes for themselves only if there are enough of
- * them, or nothing else is left. */
+/* Stragglers fill idle lanes beside others, but have lanes for themselves only if there are enough
+ * of them, or nothing else is left. */
 static inline bool calls_back(const job *j, const pack *p)
 {
     const int  count = j->stragglers.rays.count;
@@ -36,8 +36,8 @@ static inline bool gives_way(const job *j, const pack *p)
            && are_few(j, p->active & ~p->held);
 }
 
-/* Give idle lanes of a pack rays from the queue, or stragglers; where all are, a group may take their
- * place. */
+/* Give idle lanes of a pack rays from the queue, or stragglers; where all are, a group may take
+ * their place. */
 static APART void refill(job *j, int slot, unsigned idle)
 {
     pack *p = j->packs[slot];
