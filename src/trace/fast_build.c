@@ -36,6 +36,7 @@ typedef struct builder {
     level          levels[HC_FAST_LEVELS];
     float         *steepest; /* of each row of cells: largest difference of neighbouring samples */
     int           *stops;    /* of each row of the finest blocks: stop_free's count */
+    float          stray;    /* by which the surface may rise on thrice the blur */
     int            current;
     bool           sparse;
 } builder;
@@ -394,12 +395,13 @@ static void store_block(const hc_fast *fast, hc_fast_block *block, float top, co
 
 /* On sparse ground what stands next to a block, if it is higher, may be met with the steepest slope
  * of all. If nothing is, up to a cell away, whatever is higher stands two cells away. */
-static void store_sparse(const hc_fast *fast, hc_fast_block *block, float top, bool open,
+static void store_sparse(const builder *b, hc_fast_block *block, float top, bool open,
                          const float slopes[4], const float ways[4])
 {
-    const float steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
-    const float wide     = 3.0F * fast->blur;
-    const float bound    = top + (open ? fast->least : fast->slack);
+    const hc_fast *fast     = b->fast;
+    const float    steepest = larger(larger(slopes[0], slopes[1]), larger(slopes[2], slopes[3]));
+    const float    wide     = 3.0F * fast->blur;
+    const float    bound    = top + (open ? fast->least : b->stray);
     for (int q = 0; q < 4; q++, block += fast->plane) {
         const float   slope = open ? slopes[q] * (1.0F + wide) : slopes[q] + wide * steepest;
         const uint8_t code  = encode(slope, HC_FAST_SPARSE_SHIFT, HC_FAST_SPARSE_BIAS, 15);
@@ -461,7 +463,7 @@ static void block_row(void *context, int y, int worker)
             }
             hc_fast_block *const block = &row[(x + i) << HC_FAST_BLOCK_BITS];
             if (b->sparse) {
-                store_sparse(b->fast, block, tops[i], is_open(l, x + i, y), slope, way);
+                store_sparse(b, block, tops[i], is_open(l, x + i, y), slope, way);
             } else {
                 store_block(b->fast, block, tops[i], slope);
             }
@@ -536,7 +538,8 @@ static bool fill(builder *b, hc_fast *fast, int threads, hc_log *log)
     (void)run(b, 0, copy_heights, fast->y.cells + 1, threads, log);
     const float steepest = steepest_of(b);
     fast->least          = 2.0F * fast->blur * fast->blur * steepest + CLEARANCE;
-    fast->slack          = 6.0F * fast->blur * steepest + fast->least;
+    fast->slack          = 4.0F * fast->blur * steepest + fast->least;
+    b->stray             = 6.0F * fast->blur * steepest + fast->least;
     (void)run(b, 0, top_cells, b->levels[0].height, threads, log);
     top_levels(b, threads, log);
     see_far(b, threads, log);

@@ -78,7 +78,7 @@ struct hc_fast {
     hc_isa       isa;
     hc_fast_ask  ask;
     float        blur;  /* [cells] by which marching may misplace a ray              */
-    float        slack; /* [height] by which the surface may rise on thrice that way */
+    float        slack; /* [height] by which looks may misjudge the gap to a patch   */
     float        least; /* [height] that marching keeps above a surface in any case  */
 
     /* (x.cells + 1) * (y.cells + 1) corners: hc_fast_corner */
